@@ -1,0 +1,252 @@
+"""What can happen to a path: the one schema. Recorder, files, viewer, doctor and the log's page derive from it.
+
+A field is *carried* (the loop has it anyway) or *derived*: declared with a pure function of carried fields
+and the scene, `derive(event, vertex, scene)`, where `event` and `vertex` map names to columns (component
+first, one lane per row of the event) and `vertex` is the last HIT of the same paths. Only those who look
+evaluate it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.frame import dot
+
+END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
+TECHNIQUES = ("area", "solid_angle", "cone", "delta")
+LOBES = ("none", "diffuse", "reflection", "transmission")
+
+
+@dataclass(frozen=True)
+class Field:
+    """One named quantity of an event.
+
+    shape: () or (k,). domain: what values are lawful; "choice" and the scene's tables ("shape", "bsdf",
+    "light") are whole numbers that stand for a name.
+    """
+
+    name: str
+    meaning: str
+    shape: tuple = ()
+    domain: str = "real"
+    unit: str = ""
+    choices: tuple = ()
+    derive: Callable | None = None
+
+    @property
+    def carried(self):
+        """Whether the loop yields it (otherwise it is derived)."""
+        return self.derive is None
+
+
+class Event:
+    """What one stage of the loop did: columns of one kind, one entry per path that took part.
+
+    lane: (N,) places in the wave. depth: (N,). columns: name -> (..., N) array. Never written to again.
+    """
+
+    __slots__ = ("columns", "depth", "kind", "lane")
+
+    def __init__(self, kind, lane, depth, columns):
+        self.kind, self.lane, self.depth, self.columns = kind, lane, depth, columns
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of event; calling it makes one, and a missing or unknown column is a TypeError there."""
+
+    name: str
+    meaning: str
+    fields: tuple
+
+    def __post_init__(self):
+        object.__setattr__(self, "_carried", frozenset(f.name for f in self.fields if f.carried))
+
+    def __call__(self, lane, depth, **columns):
+        if columns.keys() != self._carried:
+            odd = ", ".join(sorted(columns.keys() ^ self._carried))
+            raise TypeError(f"{self.name} event: missing or unknown: {odd}")
+        return Event(self, lane, depth, columns)
+
+    def field(self, name):
+        """The declaration of one field; KeyError if there is none."""
+        for f in self.fields:
+            if f.name == name:
+                return f
+        raise KeyError(f"{self.name} has no field {name}")
+
+
+def _shape(event, vertex, scene):
+    return scene.shape_of[event["primitive"]]
+
+
+def _bsdf(event, vertex, scene):
+    return scene.bsdf_of[event["primitive"]]
+
+
+def _uv(event, vertex, scene):
+    return scene.uv(event["p"], event["primitive"])
+
+
+def _cos_wo(event, vertex, scene):
+    return dot(event["n"], event["wo"])
+
+
+def _light_cos(event, vertex, scene):
+    return -dot(event["nq"], event["wi"])
+
+
+def _light_pdf_area(event, vertex, scene):
+    cos = np.maximum(_light_cos(event, vertex, scene), 0.0)
+    return event["pdf"] / event["pick"] * cos / (event["distance"] * event["distance"])
+
+
+def _blocker(event, vertex, scene):
+    return scene.blocker(vertex, event)[0]
+
+
+def _blocker_distance(event, vertex, scene):
+    return scene.blocker(vertex, event)[1]
+
+
+def _is_delta(event, vertex, scene):
+    return scene.bsdf.is_delta(scene.bsdf_of[vertex["primitive"]])
+
+
+def _eta(event, vertex, scene):
+    return scene.bsdf.eta(vertex, scene)
+
+
+def _fresnel(event, vertex, scene):
+    return scene.bsdf.fresnel(vertex, scene)
+
+
+CAMERA = Kind(
+    "camera",
+    "A ray leaves the camera through a point of the film.",
+    (
+        Field("film", "where on the film, in pixels from the top left", (2,), "real", "px"),
+        Field("o", "origin of the ray", (3,), "point", "m"),
+        Field("d", "direction of the ray", (3,), "unit vector"),
+        Field("beta", "throughput so far", (3,), "non-negative"),
+    ),
+)
+HIT = Kind(
+    "hit",
+    "The ray meets a surface; if that surface shines, its light counts here.",
+    (
+        Field("p", "point on the surface", (3,), "point", "m"),
+        Field("t", "distance from the start of the ray", (), "positive", "m"),
+        Field("primitive", "number of the flat face or sphere in the scene", (), "index"),
+        Field("shape", "which shape", (), "shape", derive=_shape),
+        Field("bsdf", "which material", (), "bsdf", derive=_bsdf),
+        Field("uv", "coordinates on the primitive", (2,), "real", derive=_uv),
+        Field("ng", "geometric normal", (3,), "unit vector"),
+        Field("n", "shading normal", (3,), "unit vector"),
+        Field("wo", "direction back along the path", (3,), "unit vector"),
+        Field("cos_wo", "cosine between n and wo", (), "cosine", derive=_cos_wo),
+        Field("front", "whether the ray came from the side of ng", (), "flag"),
+        Field("beta", "throughput on arrival", (3,), "non-negative"),
+        Field("Le", "radiance the surface itself sends along wo", (3,), "non-negative", "W/m²/sr"),
+        Field(
+            "pdf_bsdf",
+            "density with which the last bounce chose this direction, inf after the camera or a mirror",
+            (),
+            "density",
+            "1/sr",
+        ),
+        Field(
+            "pdf_light",
+            "density with which light sampling would have given this direction, 0 if it cannot",
+            (),
+            "density",
+            "1/sr",
+        ),
+        Field("w", "MIS weight of finding this light by bouncing", (), "probability"),
+        Field("contribution", "what this adds to the path's radiance", (3,), "non-negative", "W/m²/sr"),
+    ),
+)
+LIGHT = Kind(
+    "light",
+    "A point on a light is sampled for direct illumination.",
+    (
+        Field("light", "which light", (), "light"),
+        Field("pick", "probability of choosing this light", (), "probability"),
+        Field("technique", "how the point was chosen", (), "choice", choices=TECHNIQUES),
+        Field("q", "point on the light", (3,), "point", "m"),
+        Field("nq", "normal of the light at q", (3,), "unit vector"),
+        Field("wi", "direction to q", (3,), "unit vector"),
+        Field("distance", "distance to q", (), "positive", "m"),
+        Field("Le", "radiance the light sends back along wi", (3,), "non-negative", "W/m²/sr"),
+        Field("visible", "whether q is seen (not asked where nothing could arrive)", (), "flag"),
+        Field("blocker", "first shape in the way, -1 if none", (), "shape", derive=_blocker),
+        Field(
+            "blocker_distance", "distance to what is in the way", (), "distance", "m", derive=_blocker_distance
+        ),
+        Field("f", "BSDF from wi to wo, without the cosine", (3,), "non-negative", "1/sr"),
+        Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
+        Field("cos_light", "cosine at the light, negative behind it", (), "cosine", derive=_light_cos),
+        Field("pdf_area", "density of q on its light's area", (), "density", "1/m²", derive=_light_pdf_area),
+        Field("pdf", "density of wi, choice of the light included", (), "density", "1/sr"),
+        Field("pdf_bsdf", "density with which a bounce would have given wi", (), "density", "1/sr"),
+        Field("w", "MIS weight of finding this light by sampling it", (), "probability"),
+        Field("beta", "throughput at this vertex", (3,), "non-negative"),
+        Field("u", "the random numbers: choice of the light, and of the point", (3,), "probability"),
+        Field("contribution", "what this adds to the path's radiance", (3,), "non-negative", "W/m²/sr"),
+    ),
+)
+BOUNCE = Kind(
+    "bounce",
+    "The surface chooses where the path goes on.",
+    (
+        Field("lobe", "which part of the BSDF was chosen", (), "choice", choices=LOBES),
+        Field("wi", "the new direction", (3,), "unit vector"),
+        Field(
+            "f",
+            "BSDF from wi to wo, without the cosine; at a Dirac lobe the reflected or transmitted fraction",
+            (3,),
+            "non-negative",
+            "1/sr",
+        ),
+        Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
+        Field("pdf", "density of wi; at a Dirac lobe a probability", (), "density", "1/sr"),
+        Field("delta", "whether the lobe is a Dirac one (its cosine cancels)", (), "flag"),
+        Field("eta", "index of refraction across the surface, as seen from wo", (), "positive", derive=_eta),
+        Field("F", "Fresnel reflectance for wo", (3,), "probability", derive=_fresnel),
+        Field("u", "the random numbers: choice of the lobe, and of the direction", (3,), "probability"),
+        Field("beta_before", "throughput before the bounce", (3,), "non-negative"),
+        Field("beta", "throughput after the bounce", (3,), "non-negative"),
+    ),
+)
+ROULETTE = Kind(
+    "roulette",
+    "Russian roulette: the path ends, or goes on with more weight.",
+    (
+        Field("probability", "chance to go on", (), "probability"),
+        Field("u", "the number drawn", (), "probability"),
+        Field("survived", "whether the path goes on", (), "flag"),
+        Field("beta", "throughput after it", (3,), "non-negative"),
+    ),
+)
+ESCAPE = Kind(
+    "escape",
+    "The ray leaves the scene.",
+    (
+        Field("d", "direction of the ray", (3,), "unit vector"),
+        Field("Le", "radiance of the environment", (3,), "non-negative", "W/m²/sr"),
+        Field("pdf_light", "density with which light sampling would have given d", (), "density", "1/sr"),
+        Field("w", "MIS weight of finding the environment by bouncing", (), "probability"),
+        Field("contribution", "what this adds to the path's radiance", (3,), "non-negative", "W/m²/sr"),
+    ),
+)
+END = Kind(
+    "end",
+    "The path is over.",
+    (
+        Field("reason", "why", (), "choice", choices=END_REASONS),
+        Field("radiance", "sum of the path's contributions", (3,), "non-negative", "W/m²/sr"),
+    ),
+)
+KINDS = (CAMERA, HIT, LIGHT, BOUNCE, ROULETTE, ESCAPE, END)
+

@@ -1,0 +1,67 @@
+"""Vectors as three rows of lanes: products, lengths, local frames.
+
+Everything here is element-wise, so a lane's numbers never depend on which other lanes it travels with:
+matrix products and einsum are not used because their rounding does depend on that.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+def dot(a, b):
+    """a . b of two (3, N) arrays, as (N,)."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    """a x b of two (3, N) arrays, as (3, N)."""
+    return np.stack(
+        (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    )
+
+
+def length(a):
+    """|a| of a (3, N) array, as (N,)."""
+    return np.sqrt(dot(a, a))
+
+
+def normalize(a):
+    """a / |a| of a (3, N) array; a zero vector gives NaN."""
+    return a / length(a)
+
+
+def cos_theta(w):
+    """Cosine between a local direction and the normal, which is the local z axis."""
+    return w[2]
+
+
+def same_side(a, b):
+    """Whether two local directions lie on the same side of the surface; grazing ones on neither."""
+    return a[2] * b[2] > 0.0
+
+
+class Frame(NamedTuple):
+    """Right-handed orthonormal frame (s, t, n), each (3, N); n is the local z axis."""
+
+    s: np.ndarray
+    t: np.ndarray
+    n: np.ndarray
+
+    @classmethod
+    def around(cls, n):
+        """The frame around a unit normal that has no singular direction (Duff et al. 2017)."""
+        sign = np.copysign(np.ones_like(n[2]), n[2])
+        a = -1.0 / (sign + n[2])
+        b = n[0] * n[1] * a
+        s = np.stack((1.0 + sign * (n[0] * n[0]) * a, sign * b, -sign * n[0]))
+        t = np.stack((b, sign + n[1] * n[1] * a, -n[1]))
+        return cls(s, t, n)
+
+    def to_local(self, w):
+        """World direction (3, N) in this frame."""
+        return np.stack((dot(self.s, w), dot(self.t, w), dot(self.n, w)))
+
+    def to_world(self, w):
+        """Local direction (3, N) in world space."""
+        return self.s * w[0] + self.t * w[1] + self.n * w[2]
