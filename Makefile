@@ -1,0 +1,57 @@
+# make run: the viewer on a Cornell box.  make test: every test.  make quick: those under a minute.
+# make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.  make clean.
+
+PYTHON ?= python3
+BIN := .venv/bin
+
+# Old pip takes the first for the build too, new pip the second.
+export PIP_CONSTRAINT := constraints.txt
+export PIP_BUILD_CONSTRAINT := constraints.txt
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PYTHON
+
+.PHONY: run test quick check format seeds clean system
+
+run: .venv/.run
+	$(BIN)/castray view cornell_unit
+
+test: .venv/.dev system
+	@# Those that hold a clock run by themselves (5: there are none).
+	$(BIN)/python -m pytest -m timed || [ $$? -eq 5 ]
+	$(BIN)/python -m pytest -n 2 -m "not timed"
+
+quick: .venv/.dev
+	$(BIN)/python -m pytest -n 2 -m "not slow and not browser and not timed"
+
+check: .venv/.dev
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+format: .venv/.dev
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+seeds: .venv/.dev
+	$(BIN)/python tests/seeds.py
+
+clean:
+	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find tracer viewer lessons scenes tests -name __pycache__ -prune -exec rm -rf {} +
+
+# Without these parts the tests that need them skip and say so; under CI nothing may be missing.
+system:
+	.ci/system chromium g++ fonts || [ "$$CI" != true ]
+
+.venv/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "castray needs Python 3.11 or newer; try make PYTHON=python3.12")'
+	@.ci/system venv
+	$(PYTHON) -m venv --clear .venv
+
+.venv/.run: pyproject.toml constraints.txt | .venv/bin/python
+	$(BIN)/python -m pip install -q -e .
+	@touch $@
+
+.venv/.dev: pyproject.toml constraints.txt | .venv/bin/python
+	$(BIN)/python -m pip install -q -e '.[dev]'
+	@touch $@ .venv/.run

@@ -1,0 +1,19 @@
+"""Fixtures of the whole suite."""
+
+import shutil
+
+import pytest
+import suite
+
+
+@pytest.fixture(scope="session")
+def suite_seed():
+    """The seed of every statistical test."""
+    return suite.suite_seed()
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """Path of the browser that the browser tests drive."""
+    names = ("chromium", "chromium-browser", "google-chrome")
+    return next(filter(None, map(shutil.which, names)), None) or suite.missing("chromium")
