@@ -1,0 +1,156 @@
+"""The table of floors: a module imports only from lower floors, and the tracer stands without its heavy friends.
+
+Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder is one
+concept, and its floor is that of the whole. Two different concepts on one floor may not. The package `tracer`
+itself is a door: it gathers public names from every floor, so nothing below `viewer` may import from it.
+"""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ("tracer", "viewer", "lessons", "scenes")
+
+FLOORS = {
+    "tracer.frame": 0,
+    "tracer.warp": 0,
+    "tracer.sampler": 0,
+    "tracer.events": 0,
+    "tracer.settings": 0,
+    "tracer.bsdf": 1,
+    "tracer.shape": 1,
+    "tracer.camera": 1,
+    "tracer.film": 1,
+    "tracer.recorder": 1,
+    "tracer.light": 2,
+    "tracer.scene": 3,
+    "tracer.scene_file": 4,
+    "tracer.integrator": 4,
+    "tracer.engine": 5,
+    "tracer.trace": 5,
+    "tracer.doctor": 6,
+    "tracer.testing": 6,
+    "tracer": 6.5,
+    "scenes": 0,
+    "lessons": 7,
+    "viewer": 8,
+}
+
+# On the ground floor only vectors come before the rest.
+ORDERED = {("tracer.events", "tracer.frame"), ("tracer.warp", "tracer.frame")}
+
+HEAVY = ("pyvista", "vtk", "vtkmodules", "trimesh", "trame", "moderngl", "duckdb", "matplotlib", "OpenEXR", "PIL")
+
+
+def modules(root):
+    """(dotted name, path) of every module under the packages of `root`."""
+    for package in PACKAGES:
+        for path in sorted((root / package).rglob("*.py")):
+            parts = path.relative_to(root).with_suffix("").parts
+            yield ".".join(parts[:-1] if parts[-1] == "__init__" else parts), path
+
+
+def concept(name):
+    """The entry of FLOORS that a module belongs to: itself or the nearest folder above it; None if there is none."""
+    if name == "tracer" or name in FLOORS:
+        return name
+    above = name.rpartition(".")[0]
+    return None if above in ("", "tracer") else concept(above)
+
+
+def imports(path):
+    """(line, dotted name, at module level) of every import; `from a import b` is a.b where that is a module."""
+    tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
+    lazy = set()
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            lazy.update(id(inner) for inner in ast.walk(node) if inner is not node)
+        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+            lazy.update(id(inner) for body in node.body for inner in ast.walk(body))
+    for node in ast.walk(tree):
+        eager = id(node) not in lazy
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name, eager) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                yield node.lineno, "." * node.level + (node.module or ""), eager
+            else:
+                yield from ((node.lineno, f"{node.module}.{alias.name}", eager) for alias in node.names)
+
+
+def complaints(root):
+    """Every broken rule, one line each."""
+    for name, path in modules(root):
+        here = concept(name)
+        if here is None:
+            yield f"{name} has no floor: add it to FLOORS in tests/test_layers.py, and to ARCHITECTURE.md"
+            continue
+        for line, target, eager in imports(path):
+            place = f"{path.relative_to(root).as_posix()}:{line}"
+            if target.startswith("."):
+                yield f"{place}: import absolutely, so that the first lines show where the module stands"
+                continue
+            top = target.partition(".")[0]
+            if top in HEAVY and eager and name.startswith("tracer"):
+                yield f"{place}: the tracer imports {top} where it is used, inside a function"
+            if top not in PACKAGES:
+                continue
+            there = concept(target) or concept(target.rpartition(".")[0]) or top
+            if there != here and FLOORS[there] >= FLOORS[here] and (here, there) not in ORDERED:
+                yield f"{place}: {here} (floor {FLOORS[here]}) imports {there} (floor {FLOORS[there]})"
+
+
+def test_each_module_imports_only_from_lower_floors():
+    broken = list(complaints(ROOT))
+    assert not broken, "\n" + "\n".join(broken)
+
+
+def test_no_floor_is_kept_for_a_module_that_is_gone():
+    known = {concept(name) for name, _ in modules(ROOT)}
+    planned = {"tracer.trace", "tracer.doctor", "tracer.testing", "lessons", "scenes"}
+    assert FLOORS.keys() - known <= planned
+
+
+@pytest.mark.parametrize(
+    ("where", "text", "said"),
+    [
+        ("tracer/frame.py", "from tracer.scene import Scene", "tracer.frame (floor 0) imports tracer.scene"),
+        ("tracer/film.py", "from tracer import load", "tracer.film (floor 1) imports tracer (floor 6.5)"),
+        ("tracer/camera.py", "from tracer.film import fold", "(floor 1) imports tracer.film (floor 1)"),
+        ("tracer/scene.py", "def f():\n    import viewer.cli", "imports viewer"),
+        ("tracer/shape/mesh.py", "import trimesh", "imports trimesh where it is used"),
+        ("tracer/shape/mesh.py", "from .quad import Quad", "import absolutely"),
+        ("tracer/gossip.py", "", "tracer.gossip has no floor"),
+    ],
+)
+def test_a_broken_floor_is_seen(tmp_path, where, text, said):
+    (tmp_path / where).parent.mkdir(parents=True)
+    (tmp_path / where).write_text(text, encoding="utf-8")
+    (found,) = complaints(tmp_path)
+    assert said in found
+
+
+@pytest.mark.parametrize(
+    ("where", "text"),
+    [
+        ("tracer/shape/mesh.py", "def f():\n    import trimesh"),
+        ("tracer/shape/mesh.py", "from tracer.shape.quad import Quad"),
+        ("tracer/light/area.py", "from tracer.warp import disk"),
+        ("viewer/cli.py", "from viewer.cursor import Cursor\nimport tracer\nimport pyvista"),
+        ("tracer/__init__.py", "from tracer.scene_file import load"),
+    ],
+)
+def test_a_lawful_import_is_let_through(tmp_path, where, text):
+    (tmp_path / where).parent.mkdir(parents=True)
+    (tmp_path / where).write_text(text, encoding="utf-8")
+    assert not list(complaints(tmp_path))
+
+
+def test_importing_the_tracer_pulls_in_nothing_heavy():
+    code = f"import sys, tracer; print(*(name for name in {HEAVY} if name in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
