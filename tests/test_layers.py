@@ -1,8 +1,8 @@
-"""The table of floors: a module imports only from lower floors, and the tracer stands without its heavy friends.
+"""The table of floors: a module imports only from lower ones, and the tracer stands without heavy friends.
 
-Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder is one
-concept, and its floor is that of the whole. Two different concepts on one floor may not. The package `tracer`
-itself is a door: it gathers public names from every floor, so nothing below `viewer` may import from it.
+Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder is
+one concept and stands on one floor. Two different concepts on one floor may not. The package `tracer` itself is
+a door: it gathers public names from every floor below, so no module of the tracer imports from it.
 """
 
 import ast
@@ -43,7 +43,7 @@ FLOORS = {
 # On the ground floor only vectors come before the rest.
 ORDERED = {("tracer.events", "tracer.frame"), ("tracer.warp", "tracer.frame")}
 
-HEAVY = ("pyvista", "vtk", "vtkmodules", "trimesh", "trame", "moderngl", "duckdb", "matplotlib", "OpenEXR", "PIL")
+HEAVY = ("pyvista", "vtk", "vtkmodules", "trimesh", "trame", "moderngl", "duckdb", "matplotlib", "PIL")
 
 
 def modules(root):
@@ -55,7 +55,7 @@ def modules(root):
 
 
 def concept(name):
-    """The entry of FLOORS that a module belongs to: itself or the nearest folder above it; None if there is none."""
+    """The entry of FLOORS a module belongs to: itself or the nearest folder above it; None if there is none."""
     if name == "tracer" or name in FLOORS:
         return name
     above = name.rpartition(".")[0]
@@ -63,7 +63,7 @@ def concept(name):
 
 
 def imports(path):
-    """(line, dotted name, at module level) of every import; `from a import b` is a.b where that is a module."""
+    """(line, dotted name, whether it runs at import) of every import; `from a import b` counts as a.b."""
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
     lazy = set()
     for node in ast.walk(tree):
