@@ -1,8 +1,8 @@
 """The table of floors: a module imports only from lower ones, and the tracer stands without heavy friends.
 
-Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder is
-one concept and stands on one floor. Two different concepts on one floor may not. The package `tracer` itself is
-a door: it gathers public names from every floor below, so no module of the tracer imports from it.
+Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder
+is one concept and stands on one floor. Two different concepts on one floor may not. The package `tracer` itself
+is a door: it gathers public names from every floor below, so no module of the tracer imports from it.
 """
 
 import ast
@@ -55,7 +55,7 @@ def modules(root):
 
 
 def concept(name):
-    """The entry of FLOORS a module belongs to: itself or the nearest folder above it; None if there is none."""
+    """The entry of FLOORS a module belongs to: itself or the nearest folder above; None if there is none."""
     if name == "tracer" or name in FLOORS:
         return name
     above = name.rpartition(".")[0]
