@@ -110,16 +110,17 @@ def _blocker_distance(event, vertex, scene):
     return scene.blocker(vertex, event)[1]
 
 
-def _is_delta(event, vertex, scene):
-    return scene.bsdf.is_delta(scene.bsdf_of[vertex["primitive"]])
+def _of_material(name, vertex, scene):
+    cos = dot(vertex["n"], vertex["wo"])
+    return scene.bsdf.property(scene.bsdf_of[vertex["primitive"]], name, cos)
 
 
 def _eta(event, vertex, scene):
-    return scene.bsdf.eta(vertex, scene)
+    return _of_material("relative_eta", vertex, scene)[0]
 
 
 def _fresnel(event, vertex, scene):
-    return scene.bsdf.fresnel(vertex, scene)
+    return _of_material("reflectance_at", vertex, scene)
 
 
 CAMERA = Kind(
@@ -172,6 +173,7 @@ LIGHT = Kind(
     "A point on a light is sampled for direct illumination.",
     (
         Field("light", "which light", (), "light"),
+        Field("primitive", "number of the flat face or sphere of the light that q lies on", (), "index"),
         Field("pick", "probability of choosing this light", (), "probability"),
         Field("technique", "how the point was chosen", (), "choice", choices=TECHNIQUES),
         Field("q", "point on the light", (3,), "point", "m"),

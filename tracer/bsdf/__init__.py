@@ -1,0 +1,18 @@
+"""How surfaces scatter light. One file per material; each class has the same three methods.
+
+    eval(wo, wi) -> f          (3, N) in sr^-1, never with the cosine
+    pdf(wo, wi) -> density     (N,) in sr^-1 with which sample would give wi
+    sample(wo, u) -> Sample    from u (3, N): choice of the lobe, then the direction
+
+Directions are local (z is the shading normal), unit, and leave the surface. Parameters are arrays whose
+last axis is one column per material, or one per lane after `take`. `one_sided` materials reflect on the side
+of the normal only; `delta` ones consist of Dirac lobes: eval and pdf are 0 there, and sample gives the
+scattered fraction as f and a probability as pdf, because the lobe's own 1/cos cancels the cosine.
+Adding a material: its file, and its name in ALL; the tests of all materials then hold for it too.
+"""
+
+from tracer.bsdf.conductor import Conductor
+from tracer.bsdf.dielectric import Dielectric
+from tracer.bsdf.diffuse import Diffuse
+
+ALL = (Diffuse, Conductor, Dielectric)

@@ -1,0 +1,57 @@
+"""Smooth metal: a mirror whose reflectance depends on colour and angle."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer import warp
+from tracer.bsdf import fresnel
+from tracer.bsdf.sample import Material, Sample
+from tracer.events import LOBES
+
+
+@dataclass(frozen=True)
+class Conductor(Material):
+    """A Dirac lobe in the mirror direction with the Fresnel reflectance of eta + i k.
+
+    A perfect mirror is written as k = inf.
+    """
+
+    eta: np.ndarray  # (3, M) real part of the index
+    k: np.ndarray  # (3, M) imaginary part; inf for a perfect mirror
+    specular_reflectance: np.ndarray  # (3, M) factor on top, 1 for a real metal
+
+    delta = True
+
+    def reflectance_at(self, cos):
+        """Unpolarised reflectance (3, N) for the cosine of wo."""
+        perfect = np.isinf(self.k)
+        rs, rp = fresnel.conductor(
+            cos, np.where(perfect, 1.0, self.eta), np.where(perfect, 0.0, self.k)
+        )
+        return np.where(perfect, 1.0, 0.5 * (rs + rp)).astype(cos.dtype) * self.specular_reflectance
+
+    def albedo(self):
+        """Largest share of light that is sent back, (3, M)."""
+        return self.specular_reflectance
+
+    def display_colour(self):
+        """Colour that stands for the material in drawings: its reflectance head on, (3, M)."""
+        return self.reflectance_at(np.ones(1, self.eta.dtype))
+
+    def eval(self, wo, wi):
+        """0: a Dirac lobe has no value in any given direction."""
+        return np.zeros_like(wo)
+
+    def pdf(self, wo, wi):
+        """0, as for eval."""
+        return np.zeros_like(wo[2])
+
+    def sample(self, wo, u):
+        """The mirror direction, with probability 1."""
+        n = wo.shape[1]
+        above = wo[2] > 0.0
+        f = self.reflectance_at(np.clip(wo[2], 0.0, 1.0)) * above
+        lobe = np.broadcast_to(np.int8(LOBES.index("reflection")), n)
+        pdf = above.astype(wo.dtype)
+        return Sample(warp.reflect(wo), f, pdf, np.broadcast_to(True, n), lobe)

@@ -1,0 +1,68 @@
+"""Smooth glass or water: reflects and refracts, chosen by the Fresnel reflectance."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.bsdf import fresnel
+from tracer.bsdf.sample import Material, Sample
+from tracer.events import LOBES
+
+
+@dataclass(frozen=True)
+class Dielectric(Material):
+    """Two Dirac lobes: F in the mirror direction, 1 - F in Snell's.
+
+    What is transmitted is radiance, which grows by the square of the index it enters: seen along the path
+    from the camera, f is (1 - F) divided by the square of the relative index.
+    """
+
+    eta: np.ndarray  # (M,) index behind the surface over index on the side of the normal
+    specular_reflectance: np.ndarray  # (3, M) factor on the reflected light, 1 for real glass
+    specular_transmittance: np.ndarray  # (3, M) factor on the transmitted light, 1 for clear glass
+
+    delta = True
+    one_sided = False
+
+    def albedo(self):
+        """Largest share of light that is sent on, (3, M)."""
+        return np.maximum(self.specular_reflectance, self.specular_transmittance)
+
+    def display_colour(self):
+        """Colour that stands for the material in drawings, (3, M)."""
+        return self.specular_transmittance
+
+    def relative_eta(self, cos):
+        """Index across the surface over index on the side of wo, (N,)."""
+        return np.where(cos > 0.0, self.eta, 1.0 / self.eta)
+
+    def reflectance_at(self, cos):
+        """Unpolarised reflectance (3, N) for the (signed) cosine of wo."""
+        rs, rp, _ = fresnel.dielectric(np.minimum(np.abs(cos), 1.0), self.relative_eta(cos))
+        return (0.5 * (rs + rp)) * np.ones_like(self.specular_reflectance)
+
+    def eval(self, wo, wi):
+        """0: Dirac lobes have no value in any given direction."""
+        return np.zeros_like(wo)
+
+    def pdf(self, wo, wi):
+        """0, as for eval."""
+        return np.zeros_like(wo[2])
+
+    def sample(self, wo, u):
+        """The mirror direction with probability F, Snell's with 1 - F."""
+        eta = self.relative_eta(wo[2])
+        rs, rp, cos_t = fresnel.dielectric(np.minimum(np.abs(wo[2]), 1.0), eta)
+        reflectance = 0.5 * (rs + rp)
+        mirrored = u[0] < reflectance
+        across = np.where(mirrored, -1.0, -1.0 / eta)
+        up = np.where(mirrored, wo[2], -np.copysign(cos_t, wo[2]))
+        wi = np.stack((across * wo[0], across * wo[1], up)).astype(wo.dtype)
+        pdf = np.where(mirrored, reflectance, 1.0 - reflectance).astype(wo.dtype)
+        f = np.where(
+            mirrored,
+            reflectance * self.specular_reflectance,
+            (1.0 - reflectance) / (eta * eta) * self.specular_transmittance,
+        ).astype(wo.dtype)
+        lobe = np.where(mirrored, np.int8(LOBES.index("reflection")), np.int8(LOBES.index("transmission")))
+        return Sample(wi, f, pdf, np.broadcast_to(True, wo.shape[1]), lobe)

@@ -1,0 +1,47 @@
+"""How much light a smooth boundary reflects, for each polarisation (Born and Wolf 1999, 1.5).
+
+The dielectric forms are rearranged so that nothing cancels: with e the relative index, c the cosine and
+g = e cos_t, c - g is computed as -(e-1)(e+1)/(c+g), and e^2 c - g as (e^2-1)((e^2+1)c^2-1)/(e^2 c+g).
+"""
+
+import numpy as np
+
+
+def dielectric(cos, eta):
+    """Reflectances (Rs, Rp) and the cosine of the refracted direction, each (N,).
+
+    cos: (N,) in [0, 1] between the direction and the normal on its own side. eta: (N,) index behind the
+    surface over index in front. Beyond the critical angle Rs = Rp = 1 and the refracted cosine is 0.
+    """
+    contrast = (eta - 1.0) * (eta + 1.0)
+    square = contrast + cos * cos  # (eta cos_t)^2
+    total = square <= 0.0
+    g = np.sqrt(np.maximum(square, 0.0))
+    eta2 = eta * eta
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = contrast / ((cos + g) * (cos + g))
+        p = contrast * ((eta2 + 1.0) * cos * cos - 1.0) / ((eta2 * cos + g) * (eta2 * cos + g))
+    s = np.where(total, 1.0, s)
+    p = np.where(total, 1.0, p)
+    same = contrast == 0.0
+    rs = np.where(same, 0.0, np.minimum(s * s, 1.0))
+    rp = np.where(same, 0.0, np.minimum(p * p, 1.0))
+    return rs, rp, np.where(same, cos, g / eta)
+
+
+def conductor(cos, eta, k):
+    """Reflectances (Rs, Rp), each (C, N), of a conductor with complex index eta + i k.
+
+    cos: (N,) in [0, 1]. eta, k: (C, N) or (C, 1), relative to the medium in front.
+    """
+    cos2 = cos * cos
+    sin2 = 1.0 - cos2
+    eta2, k2 = eta * eta, k * k
+    t0 = eta2 - k2 - sin2
+    a2b2 = np.sqrt(t0 * t0 + 4.0 * eta2 * k2)
+    a = np.sqrt(np.maximum(0.5 * (a2b2 + t0), 0.0))
+    s_sum, s_part = a2b2 + cos2, 2.0 * cos * a
+    rs = (s_sum - s_part) / (s_sum + s_part)
+    p_sum, p_part = cos2 * a2b2 + sin2 * sin2, s_part * sin2
+    rp = rs * (p_sum - p_part) / (p_sum + p_part)
+    return np.clip(rs, 0.0, 1.0), np.clip(rp, 0.0, 1.0)

@@ -1,0 +1,108 @@
+"""The named steps of the loop, in one frozen record: replace one to ask what a mistake there would do."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+AUTO_DEPTH = 4  # first bounce at which automatic roulette is played: before it, paths are worth their cost
+AUTO_MOST = 0.95  # its highest survival probability, so that a path in a white room still ends
+
+
+def emission_weight(settings, strategy, pdf_bsdf, pdf_light):
+    """Weight (N,) of light found by bouncing into it.
+
+    pdf_bsdf: density of the bounce, inf after the camera or a Dirac lobe. pdf_light: density with which
+    light sampling would have found it. MIS by the power or balance heuristic (Veach 1997, 9.2).
+    """
+    if strategy == "bsdf":
+        return np.ones_like(pdf_light)
+    if strategy == "light":
+        return np.isinf(pdf_bsdf).astype(pdf_light.dtype)
+    return mis_weight(settings, pdf_bsdf, pdf_light)
+
+
+def light_weight(settings, strategy, pdf_light, pdf_bsdf):
+    """Weight (N,) of light found by sampling it; pdf_bsdf: density of a bounce in the same direction."""
+    if strategy == "light":
+        return np.ones_like(pdf_light)
+    return mis_weight(settings, pdf_light, pdf_bsdf)
+
+
+def mis_weight(settings, mine, other):
+    """Weight (N,) of the technique with density `mine` against the one with density `other`."""
+    ratio = other / mine
+    if settings.heuristic == "power":
+        ratio = ratio * ratio
+    return 1.0 / (1.0 + ratio)
+
+
+def light_point(scene, hit, u):
+    """A point on a light for each hit, as a LightSample."""
+    return scene.sample_light(hit.p, u)
+
+
+def visibility(scene, hit, light):
+    """Whether each point on a light is seen from its hit, (N,)."""
+    return ~scene.occluded(hit, light)
+
+
+def light_term(beta, f, cos, light, w):
+    """beta f cos Le w / pdf, (3, N), for what is visible; 0 where the density is 0."""
+    usable = light.pdf > 0.0
+    return beta * f * light.Le * (cos * w * usable / np.where(usable, light.pdf, 1.0))
+
+
+def bounce(scene, hit, wo, u):
+    """A direction from each hit's BSDF, as a Sample in the local frame; wo (3, N) is local too."""
+    return scene.bsdf.sample(hit.bsdf, wo, u)
+
+
+def throughput(beta, sample, cos):
+    """beta f cos / pdf, (3, N); at a Dirac lobe the cosine cancels and it is beta f / pdf."""
+    return beta * sample.f * (np.where(sample.delta, 1.0, cos).astype(cos.dtype) / sample.pdf)
+
+
+def survival(settings, beta, depth):
+    """Probability (N,) with which Russian roulette lets each path go on; 1 where it is not played."""
+    if settings.roulette == "off":
+        return np.ones_like(beta[0])
+    if settings.roulette != "auto":
+        return np.full_like(beta[0], float(settings.roulette))
+    brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
+    return np.where(depth < AUTO_DEPTH, 1.0, np.minimum(brightest, AUTO_MOST)).astype(beta.dtype)
+
+
+def roulette(beta, probability, u):
+    """Who survives (N,), and the throughput (3, N) of those who do: beta / probability."""
+    return u < probability, beta / probability
+
+
+def next_ray(scene, hit, wi):
+    """Where the path goes on: origin and unit direction, both (3, N)."""
+    return scene.spawn(hit, wi), wi
+
+
+def film(radiance):
+    """What a finished path's radiance (3, N) counts for in its pixel: itself."""
+    return radiance
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The steps the loops call. The bug zoo, what-if and twin runs replace one of them."""
+
+    emission_weight: Callable = emission_weight
+    light_weight: Callable = light_weight
+    light_point: Callable = light_point
+    visibility: Callable = visibility
+    light_term: Callable = light_term
+    bounce: Callable = bounce
+    throughput: Callable = throughput
+    survival: Callable = survival
+    roulette: Callable = roulette
+    next_ray: Callable = next_ray
+    film: Callable = film
+
+
+RIGHT = Steps()

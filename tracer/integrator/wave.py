@@ -1,0 +1,80 @@
+"""A wave of paths: where they begin, what each carries along, and what they leave behind."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer import sampler as samplers
+from tracer.events import CAMERA, END, END_REASONS
+from tracer.integrator.steps import RIGHT
+
+_REASON = {reason: np.int8(code) for code, reason in enumerate(END_REASONS)}
+
+
+class Paths(NamedTuple):
+    """The paths still under way, one column per lane. Never written to: each stage makes new ones."""
+
+    lane: np.ndarray  # (N,) place in the wave
+    pixel: np.ndarray  # (N,) packed pixel, for the sampler
+    sample: np.ndarray  # (N,) number of the sample within its pixel
+    depth: np.ndarray  # (N,) bounces so far: 0 until the first hit is left
+    o: np.ndarray  # (3, N) origin of the ray
+    d: np.ndarray  # (3, N) its unit direction
+    source: np.ndarray  # (N,) primitive the ray starts on, -1 at the camera
+    beta: np.ndarray  # (3, N) throughput
+    pdf_bsdf: np.ndarray  # (N,) density of d in sr^-1; inf from the camera and after a Dirac lobe
+    L: np.ndarray  # (3, N) radiance gathered so far
+
+    def take(self, lanes):
+        """The paths of some lanes."""
+        return Paths(*(column.take(lanes, axis=-1) for column in self))
+
+
+class Wave:
+    """Pixels and samples to trace together, and the radiance they bring back.
+
+    x, y: (N,) pixel; sample: (N,). steps: the named steps, right ones unless replaced.
+    After the loop is exhausted: radiance (3, N) as it counts in the film, dropped (number of samples that
+    were not finite and count as 0), rays (number of rays traced).
+    """
+
+    def __init__(self, x, y, sample, settings, steps=RIGHT):
+        self.x, self.y = np.asarray(x), np.asarray(y)
+        self.sample = np.asarray(sample).astype(np.uint32)
+        self.settings, self.steps = settings, steps
+        self.random = samplers.Independent(settings.seed, settings.dtype)
+        self.radiance = np.zeros((3, self.x.size), settings.dtype)
+        self.dropped = 0
+        self.rays = 0
+
+    def begin(self, scene):
+        """The paths at the camera, and the event of their leaving it."""
+        n, dtype = self.x.size, self.settings.dtype
+        pixel, depth = samplers.pack_pixel(self.x, self.y), np.zeros(n, np.int32)
+        jitter = dtype(0.5)
+        if self.settings.jitter:
+            jitter = self.random(pixel, self.sample, depth, "film")
+        film = np.stack((self.x, self.y)).astype(dtype) + jitter
+        o, d = scene.camera.rays(film, self.settings.width, self.settings.height, dtype)
+        beta = np.ones((3, n), dtype)
+        lane = np.arange(n, dtype=np.int32)
+        paths = Paths(
+            lane, pixel, self.sample, depth, o, d,
+            np.full(n, -1, np.int32), beta, np.full(n, np.inf, dtype), np.zeros((3, n), dtype),
+        )  # fmt: skip
+        return paths, CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)
+
+    def end(self, paths, reason):
+        """Paths that are over leave their radiance; the event of their end.
+
+        A path whose radiance is not finite counts as 0, is counted, and ends as "invalid".
+        """
+        counted = self.steps.film(paths.L)
+        finite = np.isfinite(counted).all(axis=0)
+        reasons = np.full(paths.lane.size, _REASON[reason])
+        if not finite.all():
+            self.dropped += int(np.count_nonzero(~finite))
+            reasons[~finite] = _REASON["invalid"]
+            counted = np.where(finite, counted, 0.0).astype(counted.dtype)
+        self.radiance[:, paths.lane] = counted
+        return END(paths.lane, paths.depth, reason=reasons, radiance=counted)

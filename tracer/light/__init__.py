@@ -1,0 +1,1 @@
+"""Where light comes from: area lights, and the choice among them."""

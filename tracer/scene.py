@@ -1,0 +1,248 @@
+"""Shapes, materials and lights as one thing that rays can be asked of."""
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.bsdf.table import BsdfTable
+from tracer.frame import dot, length
+from tracer.light.area import AreaLights, ShiningFace
+from tracer.shape.mesh import Mesh
+from tracer.shape.rays import Rays, error_bound, leave
+from tracer.shape.sphere import Sphere
+
+
+class Surface(NamedTuple):
+    """One shape with what covers it."""
+
+    shape: object
+    bsdf: str  # name of its material
+    radiance: np.ndarray | None = None  # (3,) if it shines
+
+
+class Definition(NamedTuple):
+    """What a scene file says, in float64."""
+
+    name: str
+    surfaces: tuple
+    bsdfs: dict  # name -> material
+    camera: object
+    width: int
+    height: int
+
+
+class Hit(NamedTuple):
+    """Where rays meet surfaces, one column per lane."""
+
+    p: np.ndarray  # (3, N) point, put onto its surface
+    t: np.ndarray  # (N,) distance along the ray
+    primitive: np.ndarray  # (N,) number of the flat face or sphere
+    ng: np.ndarray  # (3, N) geometric normal
+    n: np.ndarray  # (3, N) shading normal
+    wo: np.ndarray  # (3, N) direction back along the ray
+    front: np.ndarray  # (N,) whether the ray came from the side of ng
+    bsdf: np.ndarray  # (N,) number of the material
+    light: np.ndarray  # (N,) number of the light, -1 for none
+    bound: np.ndarray  # (N,) how far p may be off its surface, along ng
+
+    def take(self, lanes):
+        """The hits of some lanes."""
+        return Hit(*(column.take(lanes, axis=-1) for column in self))
+
+
+class Scene:
+    """A definition made ready for one precision and one way of sampling.
+
+    settings: a Settings, for its precision and hemisphere; `at` gives the scene for others.
+    """
+
+    def __init__(self, definition, dtype=np.float32, hemisphere="cosine"):
+        self.definition, self.dtype, self.hemisphere = definition, dtype, hemisphere
+        self.name, self.camera = definition.name, definition.camera
+        self.width, self.height = definition.width, definition.height
+        self.shapes = tuple(s.shape for s in definition.surfaces)
+        counts = [shape.primitives for shape in self.shapes]
+        self.first = np.concatenate(([0], np.cumsum(counts)[:-1])).astype(np.int32)
+        self.shape_of = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
+        self.bsdf_names = tuple(definition.bsdfs)
+        of_shape = np.array([self.bsdf_names.index(s.bsdf) for s in definition.surfaces], np.int32)
+        self.bsdf_of = of_shape[self.shape_of]
+        self.bsdf = BsdfTable(tuple(definition.bsdfs.values()), dtype, hemisphere)
+        self._prepare_planes()
+        self._prepare_lights()
+        self._others = {}
+
+    def at(self, settings):
+        """The same scene for these settings' precision and hemisphere."""
+        wanted = settings.dtype, settings.hemisphere
+        if wanted == (self.dtype, self.hemisphere):
+            return self
+        if wanted not in self._others:
+            self._others[wanted] = Scene(self.definition, *wanted)
+        return self._others[wanted]
+
+    def _prepare_planes(self):
+        planes = [shape.planes() for shape in self.shapes]
+        self._n = np.concatenate([n for n, _ in planes], axis=1).astype(self.dtype)
+        self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
+        self._spheres = [
+            (first, shape.center.astype(self.dtype).reshape(3, 1), self.dtype(shape.radius),
+             self.dtype(-1.0 if shape.flip_normals else 1.0))
+            for first, shape in zip(self.first, self.shapes, strict=True)
+            if isinstance(shape, Sphere)
+        ]
+        extent = max(np.abs(self.bounds()).max(), np.abs(self.camera.origin).max())
+        self._kernels = [
+            shape.kernel(int(first), extent, self.dtype)
+            for first, shape in zip(self.first, self.shapes, strict=True)
+        ]
+
+    def _prepare_lights(self):
+        shining = [k for k, s in enumerate(self.definition.surfaces) if s.radiance is not None and s.radiance.any()]
+        self.light_names = tuple(self.shapes[k].name for k in shining)
+        light_of_shape = np.full(len(self.shapes), -1, np.int32)
+        light_of_shape[shining] = np.arange(len(shining))
+        self.light_of = light_of_shape[self.shape_of]
+        self.lights = None
+        if shining:
+            faces = [f for light, k in enumerate(shining) for f in self._shining_faces(light, k)]
+            radiance = np.stack([self.definition.surfaces[k].radiance for k in shining], axis=1)
+            self.lights = AreaLights(faces, radiance, self.dtype)
+
+    def _shining_faces(self, light, k):
+        shape, first = self.shapes[k], int(self.first[k])
+        area = shape.area()
+        if isinstance(shape, Sphere):
+            side = -1.0 if shape.flip_normals else 1.0
+            radius, zero = np.array([shape.radius, 0, 0]), np.zeros(3)
+            yield ShiningFace(light, first, "sphere", shape.center, radius, zero, area[0], np.array([side, 0, 0]))
+            return
+        kind = "triangle" if isinstance(shape, Mesh) else "quad"
+        corner, e1, e2 = shape.corners() if kind == "triangle" else shape.parallelograms()
+        n, _ = shape.planes()
+        for j in range(shape.primitives):
+            yield ShiningFace(light, first + j, kind, corner[:, j], e1[:, j], e2[:, j], area[j], n[:, j])
+
+    def intersect(self, o, d, source):
+        """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
+
+        Returns (t (N,), inf where nothing is hit; primitive (N,), -1 there).
+        """
+        return self._closest(Rays.towards(o, d, source))
+
+    def _closest(self, rays):
+        t = np.full(rays.source.shape, np.inf, self.dtype)
+        primitive = np.full(rays.source.shape, -1, np.int32)
+        for kernel in self._kernels:
+            t_k, hint = kernel.closest(rays)
+            nearer = t_k < t
+            lanes = np.flatnonzero(nearer)
+            if lanes.size:
+                t[lanes] = t_k[lanes]
+                primitive[lanes] = kernel.first + kernel.face(hint, rays, t_k, lanes)
+        return t, primitive
+
+    def hit(self, o, d, t, primitive):
+        """Everything about the points o + t d, all of which lie on a primitive."""
+        p, ng, bound = self._on_surface(o + t * d, primitive)
+        wo = -d
+        light = self.light_of.take(primitive)
+        return Hit(p, t, primitive, ng, ng, wo, dot(ng, wo) > 0.0, self.bsdf_of.take(primitive), light, bound)
+
+    def _on_surface(self, p, primitive):
+        """Points put onto their surfaces, the normals there, and the bound on what is left."""
+        n, c = self._n.take(primitive, axis=1), self._c.take(primitive)
+        p = p - (dot(n, p) - c) * n
+        reach = np.abs(c)
+        for first, center, radius, side in self._spheres:
+            lanes = np.flatnonzero(primitive == first)
+            out = p[:, lanes] - center
+            out = out / length(out)
+            p[:, lanes] = center + radius * out
+            n[:, lanes] = side * out
+            reach[lanes] = np.abs(out[0] * center[0]) + np.abs(out[1] * center[1]) + np.abs(out[2] * center[2])
+            reach[lanes] += radius
+        return p, n, error_bound(p, n, reach)
+
+    def spawn(self, hit, wi):
+        """Where a ray that leaves a hit along wi (3, N) starts, (3, N)."""
+        return leave(hit.p, hit.ng, hit.bound, wi)
+
+    def emission(self, hit):
+        """Radiance (3, N) that each hit surface sends along wo, and the density with which light sampling
+        from the start of the ray would have found it, (N,) in sr^-1."""
+        Le, pdf = np.zeros_like(hit.p), np.zeros_like(hit.t)
+        lanes = np.flatnonzero((hit.light >= 0) & hit.front)
+        if lanes.size:
+            light = hit.light[lanes]
+            cos = dot(hit.ng[:, lanes], hit.wo[:, lanes])
+            Le[:, lanes] = self.lights.radiance[:, light]
+            pdf[lanes] = self.lights.pdf(light, cos, hit.t[lanes])
+        return Le, pdf
+
+    def sample_light(self, p, u):
+        """A point on a light for each receiver p (3, N), from u (3, N), as a LightSample."""
+        return self.lights.sample(p, u)
+
+    def occluded(self, hit, light):
+        """Whether anything lies between each hit and its point on a light, (N,)."""
+        end = leave(
+            light.q, light.nq, error_bound(light.q, light.nq, np.abs(dot(light.q, light.nq))), -light.wi
+        )
+        rays, distance = _segments(self.spawn(hit, light.wi), end, hit.primitive, light.primitive)
+        blocked = np.zeros(distance.shape, bool)
+        for kernel in self._kernels:
+            blocked |= kernel.closest(rays)[0] < distance
+        return blocked
+
+    def blocker(self, vertex, event):
+        """First shape (N,) between the hits and light points of recorded events, -1 for none, and its
+        distance, inf for none. vertex, event: columns of a HIT and a LIGHT."""
+        q, nq = event["q"], event["nq"]
+        _, ng, bound = self._on_surface(vertex["p"], vertex["primitive"])
+        o = leave(vertex["p"], ng, bound, event["wi"])
+        end = leave(q, nq, error_bound(q, nq, np.abs(dot(q, nq))), -event["wi"])
+        rays, distance = _segments(o, end, vertex["primitive"], event["primitive"])
+        t, primitive = self._closest(rays)
+        could_shine = (event["f"].max(axis=0) > 0.0) & (event["Le"].max(axis=0) > 0.0)
+        blocked = (t < distance) & (primitive >= 0) & could_shine & ~event["visible"]
+        return np.where(blocked, self.shape_of[primitive], -1), np.where(blocked, t, np.inf)
+
+    def uv(self, p, primitive):
+        """Coordinates (2, N) of points on their primitives."""
+        out = np.zeros((2, p.shape[1]))
+        for k in np.unique(self.shape_of[primitive]):
+            lanes = np.flatnonzero(self.shape_of[primitive] == k)
+            out[:, lanes] = self.shapes[k].uv(p[:, lanes].astype(np.float64), primitive[lanes] - self.first[k])
+        return out
+
+    @cached_property
+    def has_lights(self):
+        """Whether anything in the scene shines."""
+        return self.lights is not None
+
+    def bounds(self):
+        """Corners (low (3,), high (3,)) of the box that holds everything."""
+        vertices = np.concatenate([shape.triangles()[0] for shape in self.shapes])
+        return vertices.min(axis=0), vertices.max(axis=0)
+
+    def display_colour(self, shape):
+        """Linear colour (3,) that stands for a shape in drawings."""
+        surface = self.definition.surfaces[shape]
+        return np.clip(self.definition.bsdfs[surface.bsdf].display_colour()[:, 0], 0.0, 1.0)
+
+    def is_light(self, shape):
+        """Whether a shape shines."""
+        return self.shapes[shape].name in self.light_names
+
+    def is_see_through(self, shape):
+        """Whether light passes through a shape."""
+        return not self.definition.bsdfs[self.definition.surfaces[shape].bsdf].one_sided
+
+
+def _segments(start, end, source, target):
+    """Rays from start to end, both (3, N), and their lengths (N,)."""
+    gap = end - start
+    distance = length(gap)
+    return Rays.towards(start, gap / distance, source, target), distance

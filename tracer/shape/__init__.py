@@ -1,0 +1,24 @@
+"""What light meets. One file per shape; each class is a definition in float64 that offers:
+
+    name, primitives                number of flat faces (or 1 for a sphere)
+    planes() -> (normals (3, K), offsets (K,))   the plane n . x = c of each flat face
+    area() -> (K,)                  area of each primitive in m^2
+    triangles() -> (vertices (V, 3), faces (F, 3))   for drawing
+    kernel(first, extent, dtype)    the intersection routine in one precision
+
+and a kernel that answers for a whole wave of Rays:
+
+    closest(rays) -> (t (N,), hint)  distance to the nearest hit, inf where there is none
+    face(hint, rays, t, lanes) -> number of the primitive within the shape, for the lanes that hit
+
+A ray never hits the flat primitive it starts on (`source`) or is aimed at (`target`): both are excluded by
+identity. A convex body (cube, sphere) is left for good from its outside, and from its inside only its far
+side is met.
+"""
+
+from tracer.shape.cube import Cube
+from tracer.shape.mesh import Mesh
+from tracer.shape.rectangle import Rectangle
+from tracer.shape.sphere import Sphere
+
+ALL = (Rectangle, Cube, Sphere, Mesh)

@@ -1,0 +1,128 @@
+"""A box: the cube from -1 to 1, after its transform. A convex body, entered and left by slabs."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.shape import transform
+from tracer.shape.rays import hits_only, linear
+
+# Outward local normals: face 2k looks along -axis k, face 2k + 1 along +axis k.
+_NORMALS = np.array(
+    [[-1, 1, 0, 0, 0, 0], [0, 0, -1, 1, 0, 0], [0, 0, 0, 0, -1, 1]], np.float64
+)
+
+
+@dataclass(frozen=True)
+class Cube:
+    """Mitsuba's `cube`. flip_normals makes a room of it."""
+
+    name: str
+    to_world: np.ndarray  # (4, 4)
+    flip_normals: bool = False
+
+    primitives = 6
+
+    def __post_init__(self):
+        transform.check_invertible(self.to_world, self.name)
+
+    def planes(self):
+        """The planes of the six faces."""
+        n = transform.normals(self.to_world, _NORMALS)
+        on_face = transform.points(self.to_world, _NORMALS)
+        n = -n if self.flip_normals else n
+        return n, (n * on_face).sum(axis=0)
+
+    def area(self):
+        """Area of each face in m^2, (6,)."""
+        _, e1, e2 = self.parallelograms()
+        return np.linalg.norm(np.cross(e1, e2, axis=0), axis=0)
+
+    def parallelograms(self):
+        """Corner and two sides of each face, three (3, 6): points of the face are corner + a e1 + b e2."""
+        first = np.roll(np.abs(_NORMALS), 1, axis=0)
+        second = np.roll(np.abs(_NORMALS), 2, axis=0)
+        corner = transform.points(self.to_world, _NORMALS - first - second)
+        return corner, 2.0 * transform.vectors(self.to_world, first), 2.0 * transform.vectors(
+            self.to_world, second
+        )
+
+    def triangles(self):
+        """Twelve triangles; each face has its own four vertices."""
+        corner, e1, e2 = self.parallelograms()
+        vertices = np.stack((corner, corner + e1, corner + e1 + e2, corner + e2)).transpose(2, 0, 1)
+        start = 4 * np.arange(6)[:, None]
+        faces = np.concatenate((start + [[0, 1, 2]], start + [[0, 2, 3]]))
+        return vertices.reshape(-1, 3), faces
+
+    def uv(self, p, face):
+        """Where on its face, (2, N) from 0 to 1."""
+        local = transform.points(np.linalg.inv(self.to_world), p)
+        axis = np.asarray(face) // 2
+        lanes = np.arange(local.shape[1])
+        return 0.5 * np.stack((local[(axis + 1) % 3, lanes], local[(axis + 2) % 3, lanes])) + 0.5
+
+    def kernel(self, first, extent, dtype):
+        """The intersection routine."""
+        return CubeKernel(self, first, dtype)
+
+
+class CubeKernel:
+    """Three slabs in the cube's own frame.
+
+    Each slab's near and far plane is told apart by the sign of the direction before anything is reduced,
+    and the reductions ignore NaN: a ray that lies in the plane of a face (0 times infinity) is not lost.
+    """
+
+    def __init__(self, cube, first, dtype):
+        inverse = np.linalg.inv(cube.to_world)
+        scale = np.abs(inverse[:3, :3]).max()
+        inverse[:3, :3][np.abs(inverse[:3, :3]) < 1e-15 * scale] = 0.0
+        self.first, self.last = first, first + 5
+        self.rows = [tuple(dtype(v) for v in row) for row in inverse[:3, :3]]
+        self.shift = [dtype(v) for v in inverse[:3, 3]]
+
+    def closest(self, rays):
+        """Distance to the first face met, inf for a miss, and the rays in the cube's frame."""
+        o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
+        d = [linear(row, rays.d) for row in self.rows]
+        near, far = -np.inf, np.inf
+        for o_k, d_k in zip(o, d, strict=True):
+            inverse = 1.0 / d_k
+            side = np.copysign(np.ones_like(d_k), d_k)
+            near = np.fmax(near, (-side - o_k) * inverse)
+            far = np.fmin(far, (side - o_k) * inverse)
+        hit = (near <= far) & (far > 0.0)
+        t = hits_only(np.where(near > 0.0, near, far), hit)
+        own = (rays.source >= self.first) & (rays.source <= self.last)
+        if own.any():
+            lanes = np.flatnonzero(own)
+            t[lanes] = self._from_own_face(
+                [o_k[lanes] for o_k in o], [d_k[lanes] for d_k in d], rays.source[lanes] - self.first
+            )
+        if rays.target is not None:
+            t[(rays.target >= self.first) & (rays.target <= self.last)] = np.inf
+        return t, (o, d)
+
+    def _from_own_face(self, o, d, face):
+        """Distance for rays that start on this cube: none outwards, the far side inwards.
+
+        Inwards the origin is put back into the cube first, so that a start within rounding of an edge
+        cannot slip out between two faces.
+        """
+        lanes = np.arange(face.size)
+        outward = np.stack(d)[face // 2, lanes] * (2 * (face % 2) - 1) > 0
+        far = np.inf
+        for o_k, d_k in zip(o, d, strict=True):
+            side = np.copysign(np.ones_like(d_k), d_k)
+            far = np.fmin(far, (side - np.clip(o_k, -1.0, 1.0)) / d_k)
+        return np.where(outward, np.inf, far)
+
+    def face(self, hint, rays, t, lanes):
+        """The face whose plane the hit point is nearest to, on the side the ray crosses it."""
+        o, d = hint
+        p = np.stack([o_k[lanes] + t[lanes] * d_k[lanes] for o_k, d_k in zip(o, d, strict=True)])
+        axis = np.argmax(np.abs(p), axis=0)
+        return (2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)
+
+

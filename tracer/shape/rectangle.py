@@ -1,0 +1,111 @@
+"""A flat parallelogram: the square from -1 to 1 in x and y, facing +z, after its transform."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.shape import transform
+from tracer.shape.rays import hits_only, linear
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """Mitsuba's `rectangle`. flip_normals turns the side that reflects and shines."""
+
+    name: str
+    to_world: np.ndarray  # (4, 4)
+    flip_normals: bool = False
+
+    primitives = 1
+
+    def __post_init__(self):
+        transform.check_invertible(self.to_world, self.name)
+
+    @property
+    def centre(self):
+        """Middle of the rectangle, (3,)."""
+        return self.to_world[:3, 3]
+
+    @property
+    def edges(self):
+        """From the middle to the middle of two sides, two (3,)."""
+        return self.to_world[:3, 0], self.to_world[:3, 1]
+
+    def planes(self):
+        """The one plane the rectangle lies in."""
+        n = transform.normals(self.to_world, np.array([[0.0], [0.0], [1.0]]))
+        n = -n if self.flip_normals else n
+        return n, np.array([n[:, 0] @ self.centre])
+
+    def area(self):
+        """Area in m^2, (1,)."""
+        e1, e2 = self.edges
+        return np.array([4.0 * np.linalg.norm(np.cross(e1, e2))])
+
+    def parallelograms(self):
+        """Corner and two sides of each face, three (3, 1): points of the face are corner + a e1 + b e2."""
+        e1, e2 = self.edges
+        return (self.centre - e1 - e2)[:, None], (2.0 * e1)[:, None], (2.0 * e2)[:, None]
+
+    def triangles(self):
+        """Two triangles."""
+        corner, e1, e2 = (v[:, 0] for v in self.parallelograms())
+        vertices = np.array([corner, corner + e1, corner + e1 + e2, corner + e2])
+        return vertices, np.array([[0, 1, 2], [0, 2, 3]])
+
+    def uv(self, p, face):
+        """Where on the rectangle, (2, N) from 0 to 1."""
+        local = transform.points(np.linalg.inv(self.to_world), p)
+        return 0.5 * local[:2] + 0.5
+
+    def kernel(self, first, extent, dtype):
+        """The intersection routine."""
+        return RectangleKernel(self, first, extent, dtype)
+
+
+class RectangleKernel:
+    """Distance to the plane, then two coordinates in it.
+
+    The rectangle reaches past its edge by the rounding of this very test, so that two that share an edge
+    leave no gap between them.
+    """
+
+    def __init__(self, rectangle, first, extent, dtype):
+        n, c = rectangle.planes()
+        n, c = n[:, 0], c[0]
+        e1, e2 = rectangle.edges
+        dual = np.linalg.inv(np.stack((e1, e2, n))).T  # rows of inverse transpose: a . e1 = 1, a . e2 = 0
+        centre = rectangle.centre
+        self.first = first
+        self.axis = int(np.argmax(np.abs(n))) if np.count_nonzero(n) == 1 else None
+        self.n = tuple(dtype(v) for v in n)
+        self.c = dtype(c if self.axis is None else centre[self.axis])
+        self.rows = [tuple(dtype(v) for v in _clean(row)) for row in dual[:2]]
+        self.middles = [dtype(row @ centre) for row in dual[:2]]
+        eps = np.finfo(dtype).eps
+        self.limits = [
+            dtype(1.0 + 8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre))) for row in dual[:2]
+        ]
+
+    def closest(self, rays):
+        """Distance along each ray, inf for a miss."""
+        if self.axis is None:
+            t = (self.c - linear(self.n, rays.o)) / linear(self.n, rays.d)
+        else:
+            t = (self.c - rays.o[self.axis]) * rays.inv_d[self.axis]
+        hit = (t > 0.0) & (rays.source != self.first)
+        if rays.target is not None:
+            hit &= rays.target != self.first
+        for row, middle, limit in zip(self.rows, self.middles, self.limits, strict=True):
+            reach = linear(row, rays.o) + t * linear(row, rays.d)
+            hit &= np.abs(reach - middle) <= limit
+        return hits_only(t, hit), None
+
+    def face(self, hint, rays, t, lanes):
+        """A rectangle has one face."""
+        return 0
+
+
+def _clean(row):
+    """The row with what is only rounding set to zero, so that axis-aligned walls cost less."""
+    return np.where(np.abs(row) < 1e-15 * np.abs(row).max(), 0.0, row)
