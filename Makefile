@@ -18,10 +18,10 @@ run: .venv/.run
 test: .venv/.dev system
 	@# Those that hold a clock run by themselves (5: there are none).
 	$(BIN)/python -m pytest -m timed || [ $$? -eq 5 ]
-	$(BIN)/python -m pytest -n 2 -m "not timed"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not timed"
 
 quick: .venv/.dev
-	$(BIN)/python -m pytest -n 2 -m "not slow and not browser and not timed"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not slow and not browser and not timed"
 
 check: .venv/.dev
 	$(BIN)/ruff format --check .

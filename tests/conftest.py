@@ -17,3 +17,10 @@ def chromium():
     """Path of the browser that the browser tests drive."""
     names = ("chromium", "chromium-browser", "google-chrome")
     return next(filter(None, map(shutil.which, names)), None) or suite.missing("chromium")
+
+
+def pytest_collection_modifyitems(items):
+    """Tests that share a costly fixture (a browser, an installed wheel) stay on one worker, file by file."""
+    for item in items:
+        if item.get_closest_marker("browser") or item.get_closest_marker("slow"):
+            item.add_marker(pytest.mark.xdist_group(item.path.name))

@@ -18,7 +18,11 @@ def outcomes(seed, report):
     """(names of the tests that ran, names of those that failed) under one seed."""
     command = [sys.executable, "-m", "pytest", "-q", "-n", "2", "-m", "statistical", f"--junitxml={report}"]
     done = subprocess.run(
-        command, cwd=ROOT, env={**os.environ, "CASTRAY_TEST_SEED": str(seed)}, capture_output=True, text=True
+        command,
+        cwd=ROOT,
+        env={**os.environ, "CASTRAY_TEST_SEED": str(seed)},
+        capture_output=True,
+        encoding="utf-8",
     )
     if done.returncode not in (0, 1):  # 1: some failed, which is what is being counted
         sys.exit(done.stdout + done.stderr)

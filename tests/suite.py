@@ -1,8 +1,13 @@
-"""What tests share: the suite's seed, and how a missing part of the system is treated."""
+"""What tests share: the suite's seed, the command line, and how a missing part of the system is treated."""
 
 import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
 
 
 def suite_seed():
@@ -15,3 +20,22 @@ def missing(part):
     if os.environ.get("CI") == "true":
         pytest.fail(f"{part} is missing, and under CI nothing may be")
     pytest.skip(f"{part} is missing; `make test` says how to get it")
+
+
+def castray(*words, cwd=ROOT, env=None, timeout=300):
+    """`castray WORDS` as this checkout has it, run to its end in `cwd`."""
+    return subprocess.run(
+        [sys.executable, "-c", "import sys; from viewer.cli import main; sys.exit(main())", *map(str, words)],
+        cwd=cwd,
+        env={
+            **os.environ,
+            "PYTHONPATH": str(ROOT),
+            "PYTHONSAFEPATH": "1",
+            "PYTHONIOENCODING": "utf-8",
+            **(env or {}),
+        },
+        capture_output=True,
+        encoding="utf-8",
+        timeout=timeout,
+        check=False,
+    )

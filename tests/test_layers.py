@@ -1,8 +1,8 @@
 """The table of floors: a module imports only from lower ones, and the tracer stands without heavy friends.
 
 Inside one folder of several modules (bsdf/, shape/, light/, ...) neighbours may import one another: a folder
-is one concept and stands on one floor. Two different concepts on one floor may not. The package `tracer` itself
-is a door: it gathers public names from every floor below, so no module of the tracer imports from it.
+is one concept and stands on one floor. Two different concepts on one floor may not. The package `tracer` is a
+door: it gathers public names from every floor below, so no module of the tracer imports from it.
 """
 
 import ast
@@ -152,5 +152,7 @@ def test_a_lawful_import_is_let_through(tmp_path, where, text):
 
 def test_importing_the_tracer_pulls_in_nothing_heavy():
     code = f"import sys, tracer; print(*(name for name in {HEAVY} if name in sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, encoding="utf-8", check=True
+    )
     assert done.stdout.split() == []
