@@ -1,4 +1,4 @@
-"""What would break on another system: an encoding left to chance, an API of only some systems, a path of ours."""
+"""What would break elsewhere: an encoding left to chance, an API of only some systems, a path of ours."""
 
 import ast
 import re
