@@ -58,6 +58,10 @@ class Frame(NamedTuple):
         t = np.stack((b, sign + n[1] * n[1] * a, -n[1]))
         return cls(s, t, n)
 
+    def take(self, lanes):
+        """The frames of some lanes."""
+        return Frame(*(axis.take(lanes, axis=1) for axis in self))
+
     def to_local(self, w):
         """World direction (3, N) in this frame."""
         return np.stack((dot(self.s, w), dot(self.t, w), dot(self.n, w)))

@@ -15,6 +15,10 @@ class Sample(NamedTuple):
     delta: np.ndarray  # (N,) whether the lobe is a Dirac one
     lobe: np.ndarray  # (N,) index into events.LOBES
 
+    def take(self, lanes):
+        """The samples of some lanes."""
+        return Sample(*(column.take(lanes, axis=-1) for column in self))
+
 
 class Material:
     """What all materials share: their parameters are arrays with one column per material or lane."""

@@ -72,7 +72,7 @@ class BsdfTable:
         parts = []
         for number in range(len(self._kinds)):
             lanes = np.flatnonzero(kind == number)
-            if lanes.size:
+            if lanes.size or number == 0:
                 parts.append((lanes, ask(self._gathered(number, material[lanes]), lanes)))
         if isinstance(parts[0][1], Sample):
             columns = zip(*(part for _, part in parts), strict=True)

@@ -1,51 +1,42 @@
-"""Path tracing with light samples and multiple importance sampling.
+"""Path tracing: lights found both ways, by sampling them and by bouncing into them, weighted.
 
-The rendering equation (Kajiya 1986), term by term, for every path of the wave at once:
+    Lo(p, wo) = Le(p, wo) + sum over lights of w_l f Le V |cos| / p_light + w_b f Li |cos| / p_bsdf
 
-    Lo(p, wo) = Le(p, wo) + integral of f(p, wo, wi) Li(p, wi) |cos theta| dwi
-
-Li from lights is estimated both by sampling a light and by bouncing into it, weighted so that each light
-path counts once (Veach 1997, 9.2); settings.strategy keeps only one of the two.
+For every light path w_l + w_b = 1 (multiple importance sampling, Veach 1997, 9.2), so that it counts once,
+mostly by the technique that is better at it. settings.strategy keeps only one of the two.
 """
 
-import numpy as np
-
-from tracer.events import BOUNCE, ESCAPE, HIT, LIGHT, ROULETTE
-from tracer.frame import Frame, cos_theta
+from tracer.frame import Frame
+from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights
 
 
 def path(scene, settings, wave):
     """Events of a wave of paths, stage by stage."""
-    steps, random, strategy = wave.steps, wave.random, settings.strategy
-    paths, event = wave.begin(scene)
-    yield event
+    steps, strategy = wave.steps, settings.strategy
+    paths = yield from wave.begin(scene)
     while paths.lane.size:
-        if settings.last_depth < 0:
-            yield wave.end(paths, "max_depth")
-            return
-        t, primitive = scene.intersect(paths.o, paths.d, paths.source)
-        wave.rays += t.size
+        paths, hit = yield from wave.meet(scene, paths)
 
-        # Nothing there: the ray leaves the scene
-        met = primitive >= 0
-        if not met.all():
-            lost = paths.take(np.flatnonzero(~met))
-            dark = np.zeros_like(lost.beta)
-            yield ESCAPE(
-                lost.lane, lost.depth, d=lost.d, Le=dark, pdf_light=dark[0], w=1 + dark[0], contribution=dark
-            )
-            yield wave.end(lost, "escaped")
-            met = np.flatnonzero(met)
-            paths, t, primitive = paths.take(met), t[met], primitive[met]
-        hit = scene.hit(paths.o, paths.d, t, primitive)
-
-        # Le: the surface itself shines
+        # Le: the surface itself shines, weighted against a light sample that would have found it
         Le, pdf_light = scene.emission(hit)
         w = steps.emission_weight(settings, strategy, paths.pdf_bsdf, pdf_light)
         contribution = paths.beta * Le * w
         paths = paths._replace(L=paths.L + contribution)
-        yield HIT(
-            paths.lane, paths.depth, p=hit.p, t=hit.t, primitive=hit.primitive, ng=hit.ng, n=hit.n, wo=hit.wo,
-            front=hit.front, beta=paths.beta, Le=Le, pdf_bsdf=paths.pdf_bsdf, pdf_light=pdf_light, w=w,
-            contribution=contribution,
-        )  # fmt: skip
+        yield hit_event(paths, hit, Le=Le, pdf_light=pdf_light, w=w, contribution=contribution)
+
+        # Vertices that nothing can be added to
+        paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
+        frame = Frame.around(hit.n)
+        wo = frame.to_local(hit.wo)
+        dark = ~scene.bsdf.reflects(hit.bsdf, wo)
+        paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)
+
+        # Direct light: w f Le V |cos| / p_light from one point on a light
+        if strategy != "bsdf":
+            sampled = sample_lights(scene, wave, paths, hit, frame, wo)
+            if sampled:
+                w = steps.light_weight(settings, strategy, sampled.light.pdf, sampled.pdf_bsdf)
+                paths = yield from add_light(scene, wave, paths, hit, sampled, w)
+
+        # Indirect light: go where the BSDF chooses
+        paths = yield from go_on(scene, wave, paths, hit, frame, wo)

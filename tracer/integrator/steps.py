@@ -30,11 +30,12 @@ def light_weight(settings, strategy, pdf_light, pdf_bsdf):
 
 
 def mis_weight(settings, mine, other):
-    """Weight (N,) of the technique with density `mine` against the one with density `other`."""
+    """Weight (N,) of the technique with density `mine` against the one with density `other`; 0 where the
+    first cannot give the direction at all."""
     ratio = other / mine
     if settings.heuristic == "power":
         ratio = ratio * ratio
-    return 1.0 / (1.0 + ratio)
+    return (mine > 0.0) / (1.0 + np.fmax(ratio, 0.0))  # fmax: 0/0 where neither can
 
 
 def light_point(scene, hit, u):
@@ -49,8 +50,7 @@ def visibility(scene, hit, light):
 
 def light_term(beta, f, cos, light, w):
     """beta f cos Le w / pdf, (3, N), for what is visible; 0 where the density is 0."""
-    usable = light.pdf > 0.0
-    return beta * f * light.Le * (cos * w * usable / np.where(usable, light.pdf, 1.0))
+    return beta * f * light.Le * np.where(light.pdf > 0.0, cos * w / light.pdf, 0.0)
 
 
 def bounce(scene, hit, wo, u):

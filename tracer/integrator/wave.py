@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer import sampler as samplers
-from tracer.events import CAMERA, END, END_REASONS
+from tracer.events import CAMERA, END, END_REASONS, ESCAPE
 from tracer.integrator.steps import RIGHT
 
 _REASON = {reason: np.int8(code) for code, reason in enumerate(END_REASONS)}
@@ -48,7 +48,7 @@ class Wave:
         self.rays = 0
 
     def begin(self, scene):
-        """The paths at the camera, and the event of their leaving it."""
+        """Yield the event of leaving the camera; return the paths there."""
         n, dtype = self.x.size, self.settings.dtype
         pixel, depth = samplers.pack_pixel(self.x, self.y), np.zeros(n, np.int32)
         jitter = dtype(0.5)
@@ -58,11 +58,40 @@ class Wave:
         o, d = scene.camera.rays(film, self.settings.width, self.settings.height, dtype)
         beta = np.ones((3, n), dtype)
         lane = np.arange(n, dtype=np.int32)
+        yield CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)
         paths = Paths(
             lane, pixel, self.sample, depth, o, d,
             np.full(n, -1, np.int32), beta, np.full(n, np.inf, dtype), np.zeros((3, n), dtype),
         )  # fmt: skip
-        return paths, CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)
+        if self.settings.max_depth == 0:
+            yield self.end(paths, "max_depth")
+            return paths.take(np.empty(0, np.intp))
+        return paths
+
+    def meet(self, scene, paths):
+        """Yield the events of rays that meet nothing; return the other paths and their hits."""
+        t, primitive = scene.intersect(paths.o, paths.d, paths.source)
+        self.rays += t.size
+        met = primitive >= 0
+        if not met.all():
+            lost = paths.take(np.flatnonzero(~met))
+            dark = np.zeros_like(lost.beta)
+            yield ESCAPE(
+                lost.lane, lost.depth, d=lost.d, Le=dark, pdf_light=dark[0], w=dark[0], contribution=dark
+            )
+            yield self.end(lost, "escaped")
+            lanes = np.flatnonzero(met)
+            paths, t, primitive = paths.take(lanes), t[lanes], primitive[lanes]
+        return paths, scene.hit(paths.o, paths.d, t, primitive)
+
+    def stop(self, paths, over, reason, *columns):
+        """Yield the end of the paths that are over, (N,) bool; return the others, and their columns."""
+        if over.any():
+            yield self.end(paths.take(np.flatnonzero(over)), reason)
+            lanes = np.flatnonzero(~over)
+            paths = paths.take(lanes)
+            columns = [_take(column, lanes) for column in columns]
+        return paths, *columns
 
     def end(self, paths, reason):
         """Paths that are over leave their radiance; the event of their end.
@@ -78,3 +107,8 @@ class Wave:
             counted = np.where(finite, counted, 0.0).astype(counted.dtype)
         self.radiance[:, paths.lane] = counted
         return END(paths.lane, paths.depth, reason=reasons, radiance=counted)
+
+
+def _take(column, lanes):
+    """Some lanes of an array, or of a record of arrays."""
+    return column.take(lanes, axis=-1) if isinstance(column, np.ndarray) else column.take(lanes)

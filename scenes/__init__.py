@@ -1,0 +1,1 @@
+"""Scene files that come with castray; open one by its bare name."""

@@ -1,0 +1,34 @@
+"""castray's path tracer: arrays in, arrays out. It knows no window, no web, no lesson.
+
+Conventions, stated here and nowhere else:
+
+- Arrays are component-first: a direction is (3, N), a density (N,), one lane per path; (N, 3) only at the
+  seams (mesh files, drawing).
+- wo points back along the path, wi to where light may come from; both leave the surface, both are unit.
+- Local frame: z is the shading normal. f never contains the cosine.
+- Densities are per solid angle unless the name says pdf_area. At a Dirac lobe f is the scattered fraction
+  and the density a probability, flagged `delta`: the lobe's 1/cos cancels the cosine of the equation.
+- Radiance is linear RGB. Pixels: x to the right, y down, (0, 0) top left; pictures are (H, W, 3) float32.
+- The camera is right-handed. Lengths are in metres.
+- float32 unless Settings(precision=64); the film adds in float64.
+- max_depth: 1 = emission seen directly, 2 = plus direct light, -1 = unlimited. The event field `depth` is 0
+  at the first hit.
+"""
+
+from tracer.engine import inspect, render
+from tracer.film import fold
+from tracer.picture import write
+from tracer.scene_file import built_in_scenes, load, load_dict
+from tracer.settings import Settings, TracerError
+
+__all__ = [
+    "Settings",
+    "TracerError",
+    "built_in_scenes",
+    "fold",
+    "inspect",
+    "load",
+    "load_dict",
+    "render",
+    "write",
+]

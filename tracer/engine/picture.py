@@ -1,0 +1,117 @@
+"""Render a picture; trace one pixel again with everything kept."""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer import film
+from tracer.engine import processes, waves
+from tracer.integrator.steps import RIGHT
+from tracer.integrator.wave import Wave
+from tracer.recorder import RecordedPath, number, record
+from tracer.settings import Settings, TracerError
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A rendered picture and what it cost."""
+
+    rgb: np.ndarray  # (H, W, 3) float32, linear
+    samples: np.ndarray  # (H, W) samples that went into each pixel
+    settings: Settings
+    seconds: float
+    rays: int
+    dropped: int  # samples that were not finite and count as 0
+    complete: bool  # False if it was stopped
+
+    @property
+    def paths(self):
+        """Number of paths traced."""
+        return int(self.samples.sum())
+
+
+def render(scene, settings, progress=None, workers=1, steps=RIGHT):
+    """Render `scene`.
+
+    progress: called as progress(paths done, paths in all). workers: most processes to use; more than one
+    only when the work is worth their start, and the picture is the same bit for bit. steps: the named steps
+    of the loop. Ctrl-C returns the picture so far with complete = False.
+    """
+    settings = settings.at_size_of(scene)
+    scene = scene.at(settings)
+    width, height = settings.width, settings.height
+    sheet = film.Film(width * height)
+    rays = dropped = done = 0
+    complete = True
+    began = time.perf_counter()
+    try:
+        for result in _results(scene, settings, steps, workers):
+            task = result.task
+            sheet.add(slice(task.start, task.stop), result.total, task.samples)
+            rays += result.rays
+            dropped += result.dropped
+            done += (task.stop - task.start) * task.samples
+            if progress:
+                progress(done, width * height * settings.spp)
+    except KeyboardInterrupt:
+        complete = False
+    seconds = time.perf_counter() - began
+    rgb = np.ascontiguousarray(sheet.mean().T).reshape(height, width, 3)
+    return Picture(rgb, sheet.samples.reshape(height, width), settings, seconds, rays, dropped, complete)
+
+
+def _results(scene, settings, steps, workers):
+    """Results in order: from this process, then from several once it is clear that the rest is worth it."""
+    tasks = waves.tasks(settings)
+    left = settings.width * settings.height * settings.spp
+    for task in tasks:
+        began = time.perf_counter()
+        yield waves.trace(scene, settings, steps, task)
+        paths = (task.stop - task.start) * task.samples
+        left -= paths
+        if workers > 1 and (time.perf_counter() - began) / paths * left > processes.WORTH_A_START:
+            break
+    yield from processes.traced((scene, settings, steps), tasks, workers) if left else ()
+
+
+@dataclass(frozen=True)
+class PixelRecord:
+    """All that went into one pixel."""
+
+    x: int
+    y: int
+    value: np.ndarray  # (3,) float32: the pixel, bit for bit as render gives it
+    paths: tuple[RecordedPath, ...]
+    settings: Settings
+
+    def as_dict(self, scene):
+        """Plain values, as `castray inspect --json` prints them."""
+        return {
+            "scene": scene.name,
+            "settings": self.settings.as_dict(),
+            "pixel": [self.x, self.y],
+            "value": [number(v) for v in self.value],
+            "samples": [path.as_dict(scene) for path in self.paths],
+        }
+
+
+def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
+    """Trace the paths of pixel (x, y) again and keep every event.
+
+    sample: only this one; the value is then that sample alone. Raises TracerError outside the picture.
+    """
+    settings = settings.at_size_of(scene)
+    scene = scene.at(settings)
+    if not (0 <= x < settings.width and 0 <= y < settings.height):
+        raise TracerError(
+            f"pixel {x} {y} is outside the picture: x goes from 0 to {settings.width - 1}, "
+            f"y from 0 to {settings.height - 1}"
+        )
+    if sample is not None and not 0 <= sample < settings.spp:
+        raise TracerError(f"sample {sample} is not there: samples go from 0 to {settings.spp - 1}")
+    samples = np.arange(settings.spp) if sample is None else np.array([sample])
+    wave = Wave(np.full(samples.size, x), np.full(samples.size, y), samples, settings, steps)
+    with np.errstate(all="ignore"):
+        paths = record(waves.events(scene, settings, wave), scene, wave)
+    return PixelRecord(x, y, film.fold(wave.radiance), paths, settings)

@@ -1,0 +1,42 @@
+"""Direct light by sampling the lights, indirect light by bouncing: the first estimator that works in a room.
+
+    Lo(p, wo) = Le(p, wo) + sum over lights of f Le V |cos| / p_light + integral over the rest
+
+The first sum holds all the light that arrives straight from a lamp. A bounce that finds a lamp must not add
+it again: emission counts only where no light sample could have been made, from the camera and after a
+Dirac lobe.
+"""
+
+from tracer.frame import Frame
+from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights
+
+
+def direct(scene, settings, wave):
+    """Events of a wave of paths, stage by stage."""
+    steps = wave.steps
+    paths = yield from wave.begin(scene)
+    while paths.lane.size:
+        paths, hit = yield from wave.meet(scene, paths)
+
+        # Le: the surface itself shines, and no light sample has counted it yet
+        Le, pdf_light = scene.emission(hit)
+        w = steps.emission_weight(settings, "light", paths.pdf_bsdf, pdf_light)
+        contribution = paths.beta * Le * w
+        paths = paths._replace(L=paths.L + contribution)
+        yield hit_event(paths, hit, Le=Le, pdf_light=pdf_light, w=w, contribution=contribution)
+
+        # Vertices that nothing can be added to
+        paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
+        frame = Frame.around(hit.n)
+        wo = frame.to_local(hit.wo)
+        dark = ~scene.bsdf.reflects(hit.bsdf, wo)
+        paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)
+
+        # Direct light: f Le V |cos| / p_light from one point on a light
+        sampled = sample_lights(scene, wave, paths, hit, frame, wo)
+        if sampled:
+            w = steps.light_weight(settings, "light", sampled.light.pdf, sampled.pdf_bsdf)
+            paths = yield from add_light(scene, wave, paths, hit, sampled, w)
+
+        # Indirect light: go where the BSDF chooses
+        paths = yield from go_on(scene, wave, paths, hit, frame, wo)

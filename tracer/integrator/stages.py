@@ -1,0 +1,154 @@
+"""What the loops have in common beside their formulas: events with many columns, shadow rays, roulette."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE
+from tracer.frame import cos_theta
+
+
+class Direct(NamedTuple):
+    """A light sample at each vertex that can use one, with what the surface makes of it."""
+
+    lanes: np.ndarray | slice  # which of the wave's paths take part
+    light: object  # LightSample
+    f: np.ndarray  # (3, N) BSDF towards the light
+    cos: np.ndarray  # (N,) absolute cosine there
+    pdf_bsdf: np.ndarray  # (N,) density of a bounce in the same direction
+    u: np.ndarray  # (3, N) the numbers used
+
+
+def hit_event(paths, hit, **light):
+    """The HIT of paths; light: Le, pdf_light, w and contribution."""
+    return HIT(
+        paths.lane,
+        paths.depth,
+        p=hit.p,
+        t=hit.t,
+        primitive=hit.primitive,
+        ng=hit.ng,
+        n=hit.n,
+        wo=hit.wo,
+        front=hit.front,
+        beta=paths.beta,
+        pdf_bsdf=paths.pdf_bsdf,
+        **light,
+    )
+
+
+def sample_lights(scene, wave, paths, hit, frame, wo):
+    """A light sample at every vertex whose material is not made of Dirac lobes, as a Direct; None if there
+    is no such vertex, or no light."""
+    if not scene.has_lights or scene.bsdf.all_delta:
+        return None
+    lanes = slice(None)
+    if scene.bsdf.any_delta:
+        lanes = np.flatnonzero(~scene.bsdf.is_delta(hit.bsdf))
+        if not lanes.size:
+            return None
+        paths, hit, frame, wo = paths.take(lanes), hit.take(lanes), frame.take(lanes), wo.take(lanes, axis=1)
+    u = wave.random(paths.pixel, paths.sample, paths.depth, "light")
+    light = wave.steps.light_point(scene, hit, u)
+    wi = frame.to_local(light.wi)
+    f = scene.bsdf.eval(hit.bsdf, wo, wi)
+    pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi)
+    return Direct(lanes, light, f, np.abs(cos_theta(wi)), pdf_bsdf, u)
+
+
+def add_light(scene, wave, paths, hit, direct, w):
+    """Cast the shadow rays that can carry light and add what arrives; yield the event, return the paths."""
+    lanes, light, f, cos, pdf_bsdf, u = direct
+    beta = paths.beta[:, lanes]
+    arriving = wave.steps.light_term(beta, f, cos, light, w)
+    bright = np.flatnonzero((arriving != 0.0).any(axis=0))
+    visible = np.zeros(w.shape, bool)
+    if bright.size:
+        of_wave = bright if isinstance(lanes, slice) else lanes[bright]
+        visible[bright] = wave.steps.visibility(scene, hit.take(of_wave), light.take(bright))
+        wave.rays += bright.size
+    contribution = arriving * visible
+    yield LIGHT(
+        paths.lane[lanes],
+        paths.depth[lanes],
+        light=light.light,
+        primitive=light.primitive,
+        pick=light.pick,
+        technique=light.technique,
+        q=light.q,
+        nq=light.nq,
+        wi=light.wi,
+        distance=light.distance,
+        Le=light.Le,
+        visible=visible,
+        f=f,
+        cos=cos,
+        pdf=light.pdf,
+        pdf_bsdf=pdf_bsdf,
+        w=w,
+        beta=beta,
+        u=u,
+        contribution=contribution,
+    )
+    if isinstance(lanes, slice):
+        return paths._replace(L=paths.L + contribution)
+    L = paths.L.copy()
+    L[:, lanes] += contribution
+    return paths._replace(L=L)
+
+
+def bounce_event(paths, sample, wi, cos, u, beta):
+    """The BOUNCE of paths; wi is the new direction in world space, beta the throughput after it."""
+    return BOUNCE(
+        paths.lane,
+        paths.depth,
+        lobe=sample.lobe,
+        wi=wi,
+        f=sample.f,
+        cos=cos,
+        pdf=sample.pdf,
+        delta=sample.delta,
+        u=u,
+        beta_before=paths.beta,
+        beta=beta,
+    )
+
+
+def go_on(scene, wave, paths, hit, frame, wo):
+    """Choose where each path goes on: bounce, roulette, next ray. Yield the events, return the paths."""
+    steps, settings = wave.steps, wave.settings
+    u = wave.random(paths.pixel, paths.sample, paths.depth, "bsdf")
+    sample = steps.bounce(scene, hit, wo, u)
+    cos = np.abs(cos_theta(sample.wi))
+    nowhere = ~((sample.pdf > 0.0) & (sample.f > 0.0).any(axis=0))
+    paths, hit, frame, sample, cos, u = yield from wave.stop(
+        paths, nowhere, "absorbed", hit, frame, sample, cos, u
+    )
+    wi = frame.to_world(sample.wi)
+    beta = steps.throughput(paths.beta, sample, cos)
+    yield bounce_event(paths, sample, wi, cos, u, beta)
+    paths = paths._replace(beta=beta, pdf_bsdf=np.where(sample.delta, np.inf, sample.pdf).astype(beta.dtype))
+    q = steps.survival(settings, beta, paths.depth)
+    played = np.flatnonzero(q < 1.0)
+    if played.size:
+        paths, hit, wi = yield from _play(wave, paths, hit, wi, q, played)
+    o, d = steps.next_ray(scene, hit, wi)
+    return paths._replace(depth=paths.depth + 1, o=o, d=d, source=hit.primitive)
+
+
+def _play(wave, paths, hit, wi, q, played):
+    """Russian roulette for the lanes `played`; yield its events, return what survives."""
+    at_stake = paths.take(played)
+    u = wave.random(at_stake.pixel, at_stake.sample, at_stake.depth, "roulette")[0]
+    survived, beta = wave.steps.roulette(at_stake.beta, q[played], u)
+    yield ROULETTE(at_stake.lane, at_stake.depth, probability=q[played], u=u, survived=survived, beta=beta)
+    after = paths.beta.copy()
+    after[:, played] = beta
+    paths = paths._replace(beta=after)
+    if survived.all():
+        return paths, hit, wi
+    yield wave.end(at_stake.take(np.flatnonzero(~survived)), "roulette")
+    alive = np.ones(q.shape, bool)
+    alive[played] = survived
+    lanes = np.flatnonzero(alive)
+    return paths.take(lanes), hit.take(lanes), wi.take(lanes, axis=1)

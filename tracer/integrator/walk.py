@@ -1,0 +1,33 @@
+"""The rendering equation and nothing else: follow the surface's own choice of direction until it hits a light.
+
+    Lo(p, wo) = Le(p, wo) + integral of f(p, wo, wi) Li(p, wi) |cos theta| dwi      (Kajiya 1986)
+
+The integral is estimated by one direction wi drawn from the BSDF, and Li there by the same equation.
+"""
+
+from tracer.frame import Frame
+from tracer.integrator.stages import go_on, hit_event
+
+
+def walk(scene, settings, wave):
+    """Events of a wave of paths, stage by stage."""
+    paths = yield from wave.begin(scene)
+    while paths.lane.size:
+        paths, hit = yield from wave.meet(scene, paths)
+
+        # Le: the surface itself shines
+        Le, pdf_light = scene.emission(hit)
+        w = wave.steps.emission_weight(settings, "bsdf", paths.pdf_bsdf, pdf_light)
+        contribution = paths.beta * Le * w
+        paths = paths._replace(L=paths.L + contribution)
+        yield hit_event(paths, hit, Le=Le, pdf_light=pdf_light, w=w, contribution=contribution)
+
+        # Vertices that nothing can be added to
+        paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
+        frame = Frame.around(hit.n)
+        wo = frame.to_local(hit.wo)
+        dark = ~scene.bsdf.reflects(hit.bsdf, wo)
+        paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)
+
+        # f Li |cos| / p: go where the BSDF chooses
+        paths = yield from go_on(scene, wave, paths, hit, frame, wo)
