@@ -25,6 +25,7 @@ FLOORS = {
     "tracer.shape": 1,
     "tracer.camera": 1,
     "tracer.film": 1,
+    "tracer.picture": 1,
     "tracer.recorder": 1,
     "tracer.light": 2,
     "tracer.scene": 3,
