@@ -8,10 +8,10 @@ from suite import castray
 SMALL = ("--size", "8", "6", "--spp", "1", "--max-depth", "2")
 
 ROOM = """
-[camera]
+[sensor]
 type = "perspective"
 fov = 40.0
-to_world = {{ look_at = {{ origin = [0, 0, 4], target = [0, 0, 0], up = [0, 1, 0] }} }}
+to_world = [{{ look_at = {{ origin = [0, 0, 4], target = [0, 0, 0], up = [0, 1, 0] }} }}]
 
 [lamp]
 type = "rectangle"
@@ -67,6 +67,14 @@ def test_a_folder_for_a_scene(tmp_path):
 def test_an_empty_scene_file(tmp_path):
     (tmp_path / "empty.toml").write_text("", encoding="utf-8")
     refused(("render", "empty.toml"), "empty.toml", "perspective", cwd=tmp_path)
+
+
+def test_a_scene_file_with_the_mark_that_some_editors_put_first(tmp_path):
+    (tmp_path / "marked.toml").write_text(
+        ROOM.format(radiance=1, thing="cube", more=""), encoding="utf-8-sig"
+    )
+    done = castray("render", "marked.toml", *SMALL, "-o", "out.npy", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
 
 
 def test_an_unknown_word_names_the_words_that_would_do(tmp_path):

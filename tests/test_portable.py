@@ -12,7 +12,6 @@ ROOT = Path(__file__).resolve().parent.parent
 OURS = ("tracer", "viewer", "lessons", "scenes")
 SOME_SYSTEMS = {"fcntl", "grp", "msvcrt", "pty", "pwd", "resource", "syslog", "termios", "tty", "winreg"}
 SOME_SYSTEMS |= {"os.fork", "os.geteuid", "os.getuid", "os.sched_getaffinity", "os.setsid", "os.uname"}
-OTHER_OPENS = {"Image", "os", "webbrowser"}  # their `open` is another thing
 MACHINE_PATH = re.compile(r"(?<![\w.<-])/(?:home|root|Users|work|mnt|private/var)/[\w.-]+|\b[A-Z]:\\Users\\")
 
 
@@ -44,12 +43,12 @@ def leaves_encoding_to_chance(node):
     method = node.func.attr if isinstance(node.func, ast.Attribute) else None
     if method in ("read_text", "write_text"):
         return len(node.args) < (2 if method == "write_text" else 1)
-    if method == "open":
-        owner = getattr(node.func.value, "id", "")
-        return owner not in OTHER_OPENS and _is_text(said.get("mode", node.args[0] if node.args else None))
+    if method == "open":  # a path's; others by that name are known by what they are given
+        modes = [*node.args[:1], *filter(None, [said.get("mode")])]
+        return all(isinstance(m, ast.Constant) and set(str(m.value)) <= set("rwaxt+") for m in modes)
     if isinstance(node.func, ast.Name) and node.func.id == "open":
         return _is_text(said.get("mode", node.args[1] if len(node.args) > 1 else None))
-    return "text" in said or "universal_newlines" in said
+    return any(ast.unparse(said.get(name, node)) == "True" for name in ("text", "universal_newlines"))
 
 
 def _is_text(mode):
@@ -109,6 +108,7 @@ def test_an_unstated_encoding_is_seen(code):
         "p.open('wb')",
         "p.read_text('utf-8')",
         "webbrowser.open(url)",
+        "Response(text='no')",
     ],
 )
 def test_a_stated_encoding_is_let_through(code):
