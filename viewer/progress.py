@@ -1,0 +1,15 @@
+"""Progress of long work, on standard error."""
+
+from contextlib import contextmanager
+
+
+@contextmanager
+def bar(what):
+    """A progress bar; gives the function progress(done, total) that moves it."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn(what), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what)
+        yield lambda done, total: progress.update(task, completed=done, total=total)

@@ -1,0 +1,107 @@
+"""A pixel and its paths as text: event by event, names, numbers, units, and the ledger that adds up."""
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from viewer.caption import caption, shown, why_dead
+from viewer.words import Speaker
+
+_LEDGER_KINDS = ("hit", "light", "escape")
+
+
+def print_pixel(record, scene, console=None):
+    """The pixel's samples, its brightest path event by event, and both sums."""
+    console = console or Console(highlight=False, soft_wrap=True)
+    say = Speaker("en")
+    settings = record.settings
+    console.print(
+        f"pixel ({record.x}, {record.y}) of {scene.name}, {settings.width} x {settings.height}, "
+        f"{settings.integrator}, seed {settings.seed}\n"
+    )
+    chosen = max(record.paths, key=lambda path: float(np.sum(path.radiance, dtype=np.float64)))
+    _print_path(chosen, scene, say, console)
+    _print_samples(record, chosen, console)
+
+
+def _print_path(path, scene, say, console):
+    console.print(Text(f"sample {path.sample}, event by event", style="bold"))
+    explained = set()
+    for event in path.events:
+        console.print()
+        head = Text(f"{event.step:>3}  {say(f'kind.{event.kind.name}')}", style="bold cyan")
+        head.append(f"  (depth {event.depth})  ", style="dim")
+        head.append(caption(event, scene, say), style="default")
+        console.print(head)
+        for field in event.kind.fields:
+            value = event.values[field.name]
+            if _applies(value):
+                _print_field(field, value, event.kind.name not in explained, scene, say, console)
+        explained.add(event.kind.name)
+    dead = why_dead(path, scene, say)
+    if dead:
+        console.print()
+        console.print(dead)
+    _print_ledger(path, console)
+
+
+def _applies(value):
+    """Whether a derived field means anything at this event."""
+    return not (np.issubdtype(np.asarray(value).dtype, np.floating) and np.isnan(value).all())
+
+
+def _print_field(field, value, explain, scene, say, console):
+    """One line: name, value, unit, and what it means where the kind of event is met for the first time."""
+    line = Text("     ")
+    line.append(f"{field.name:<17}", style="green")
+    line.append(f"{shown(field, value, scene, say):<38} ")
+    line.append(f"{field.unit:<9}")
+    if explain:
+        line.append(field.meaning, style="dim")
+    line.rstrip()
+    console.print(line)
+
+
+def _print_ledger(path, console):
+    """Every contribution, and that they add up to the path's radiance."""
+    table = Table(title="what the path brings", title_justify="left", box=None, title_style="bold")
+    for name in ("event", "what", "red", "green", "blue"):
+        table.add_column(name, justify="left" if name == "what" else "right")
+    total = np.zeros(3, path.radiance.dtype)
+    for event in path.events:
+        if event.kind.name in _LEDGER_KINDS:
+            contribution = event.values["contribution"]
+            total = total + contribution
+            if contribution.any():
+                what = f"{event.kind.name}, depth {event.depth}"
+                table.add_row(str(event.step), what, *(str(v) for v in contribution))
+    table.add_row("", "sum", *(str(v) for v in total), style="bold")
+    console.print()
+    console.print(table)
+
+
+def _print_samples(record, chosen, console):
+    """Every sample, and that their mean is the pixel."""
+    table = Table(title="what the pixel is made of", title_justify="left", box=None, title_style="bold")
+    for name in ("sample", "vertices", "end", "red", "green", "blue"):
+        table.add_column(name, justify="left" if name == "end" else "right")
+    for path in record.paths:
+        vertices = sum(event.kind.name == "hit" for event in path.events)
+        mark = "*" if path is chosen else ""
+        radiance = (str(v) for v in path.radiance)
+        table.add_row(f"{mark}{path.sample}", str(vertices), path.end, *radiance)
+    table.add_row("mean", "", "", *(str(v) for v in record.value), style="bold")
+    console.print()
+    console.print(table)
+    console.print("* shown above; --sample K shows another" if len(record.paths) > 1 else "")
+
+
+def print_bugs(bugs, console=None):
+    """The bug zoo as a table."""
+    table = Table(box=None)
+    for name in ("id", "bug", "seen as", "law broken"):
+        table.add_column(name)
+    for bug in bugs:
+        table.add_row(bug.id, bug.title, bug.symptom, bug.law)
+    (console or Console(highlight=False)).print(table)
