@@ -1,0 +1,110 @@
+"""The papers tell the truth: examples run, links lead somewhere, the floors are those that are tested."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from suite import ROOT, castray
+from test_layers import FLOORS
+
+PAPERS = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md")
+SHELLS = ("sh", "bash", "console")
+
+
+def text(name):
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def blocks(name, *languages):
+    """The fenced code blocks of a paper in any of the languages."""
+    found = re.findall(r"^```(\w+)\n(.*?)^```", text(name), re.DOTALL | re.MULTILINE)
+    return [body for language, body in found if language in languages]
+
+
+def examples():
+    """Every `castray ...` line of a shell block; `view` would not end and is left to the browser tests."""
+    lines = [
+        line.removeprefix("$ ")
+        for name in PAPERS
+        for body in blocks(name, *SHELLS)
+        for line in body.splitlines()
+    ]
+    return [line for line in lines if line.startswith("castray ") and " view " not in line]
+
+
+@pytest.mark.parametrize("line", examples())
+def test_an_example_runs_as_it_is_printed(line, tmp_path):
+    words = shlex.split(line, comments=True)[1:]
+    done = castray(*words, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    if "-o" in words:
+        assert (tmp_path / words[words.index("-o") + 1]).stat().st_size > 0
+
+
+def test_the_scene_of_the_readme_renders(tmp_path):
+    (body,) = blocks("README.md", "toml")
+    (tmp_path / "mine.toml").write_text(body, encoding="utf-8")
+    done = castray(
+        "render", "mine.toml", "--size", "16", "16", "--spp", "4", "-o", "m.npy", "--json", cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert min(json.loads(done.stdout)["mean"]) > 0
+
+
+def test_the_python_of_the_readme_runs():
+    (body,) = blocks("README.md", "python")
+    done = subprocess.run(
+        [sys.executable, "-c", body], cwd=ROOT, capture_output=True, encoding="utf-8", check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_pixel_of_the_first_five_minutes_is_in_the_shadow_of_the_small_box():
+    x, y = re.search(
+        r"Take \((\d+), (\d+)\): the floor, in the shadow of the small box", text("README.md")
+    ).groups()
+    done = castray("inspect", "cornell_unit", "--pixel", x, y, "--spp", "16", "--json")
+    assert done.returncode == 0, done.stderr
+    events = [event for path in json.loads(done.stdout)["samples"] for event in path["events"]]
+    first = [event for event in events if event["kind"] == "light" and event["depth"] == 0]
+    assert {event["shape"] for event in events if event["kind"] == "hit" and event["depth"] == 0} == {"floor"}
+    assert first
+    assert all(not event["visible"] and event["blocker"] == "small_box" for event in first)
+
+
+def test_every_link_leads_to_a_file():
+    for name in PAPERS:
+        for target in re.findall(r"\]\(([^)#]+)\)", text(name)):
+            assert (ROOT / target).is_file(), f"{name} points to {target}"
+
+
+def test_every_file_a_paper_names_is_there():
+    for name in PAPERS:
+        for target in re.findall(r"`((?:tracer|viewer|tests|scenes|lessons)/[\w./]*)`", text(name)):
+            assert (ROOT / target).exists(), f"{name} names {target}"
+
+
+def test_the_make_targets_named_are_there():
+    targets = re.findall(r"^(\w+):", text("Makefile"), re.MULTILINE)
+    named = {word for name in PAPERS for word in re.findall(r"[`\n]make (\w+)", text(name))}
+    assert named <= set(targets)
+
+
+def test_the_table_of_floors_is_the_one_that_is_tested():
+    rows = re.findall(r"^\| (\d) \| (.+) \|$", text("ARCHITECTURE.md"), re.MULTILINE)
+    said = {word.rstrip("/"): int(floor) for floor, row in rows for word in re.findall(r"`([\w/]+)`", row)}
+    for name, floor in FLOORS.items():
+        word = name.removeprefix("tracer.")
+        if (ROOT / name.replace(".", "/")).with_suffix(".py").exists() or (
+            ROOT / name.replace(".", "/")
+        ).is_dir():
+            assert word == "scenes" or said.get(word) == int(floor), f"ARCHITECTURE.md puts {word} elsewhere"
+
+
+def test_the_scenes_named_in_the_papers_are_those_that_come_with_it():
+    named = set(re.findall(r"`(cornell\w*|furnace\w*)`", text("CHANGELOG.md")))
+    assert named == {path.stem for path in Path(ROOT / "scenes").glob("*.toml")}
