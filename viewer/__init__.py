@@ -1,0 +1,1 @@
+"""Everything a person touches: the browser viewer and the command line."""

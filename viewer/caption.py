@@ -1,0 +1,124 @@
+"""An event in words, and why a dead path carries nothing. Labels come from the schema, sentences from the table."""
+
+from collections import Counter
+
+import numpy as np
+
+from tracer.events import END
+from viewer.numerals import several, short
+
+TABLES = {
+    "shape": lambda scene: [shape.name for shape in scene.shapes],
+    "bsdf": lambda scene: scene.bsdf_names,
+    "light": lambda scene: scene.light_names,
+}
+
+
+def name_of(field, value, scene):
+    """The name that a whole number in the record stands for; None if there is none."""
+    names = field.choices or TABLES[field.domain](scene)
+    return names[int(value)] if 0 <= int(value) < len(names) else None
+
+
+def shown(field, value, scene, say):
+    """One field's value as a person reads it."""
+    if field.domain in ("choice", *TABLES):
+        name = name_of(field, value, scene)
+        return say("value.none") if name is None else say.optional(f"choice.{name}", name)
+    if field.domain == "flag":
+        return say("value.yes") if value else say("value.no")
+    if field.domain == "index":
+        return str(int(value))
+    return several(value)
+
+
+def caption(event, scene, say):
+    """One or two sentences that say what this event is and does."""
+    return CAPTIONS[event.kind.name](event.values, scene, say)
+
+
+def _camera(v, scene, say):
+    return say("caption.camera", x=short(v["film"][0]), y=short(v["film"][1]))
+
+
+def _hit(v, scene, say):
+    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"]))
+    if not np.any(v["Le"] > 0):
+        return text
+    return text + " " + say("caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere", w=short(v["w"]))
+
+
+def light_outcome(v):
+    """What became of a light sample: behind, below, blocked, lit or nothing."""
+    if v["cos_light"] <= 0:
+        return "behind"
+    if not np.any(v["f"] > 0):
+        return "below"
+    if not v["visible"]:
+        return "blocked"
+    return "lit" if np.any(v["contribution"] > 0) else "nothing"
+
+
+def _light(v, scene, say):
+    return say(
+        f"caption.light.{light_outcome(v)}",
+        light=_name("light", v["light"], scene),
+        blocker=_name("shape", v["blocker"], scene),
+        distance=short(v["distance"]),
+        at=short(v["blocker_distance"]),
+        w=short(v["w"]),
+    )
+
+
+def _bounce(v, scene, say):
+    return say("caption.bounce.delta" if v["delta"] else "caption.bounce", pdf=short(v["pdf"]))
+
+
+def _roulette(v, scene, say):
+    key = "caption.roulette.survived" if v["survived"] else "caption.roulette.ended"
+    return say(key, q=short(v["probability"]), u=short(v["u"]))
+
+
+def _escape(v, scene, say):
+    return say("caption.escape.adds" if np.any(v["contribution"] > 0) else "caption.escape")
+
+
+def _end(v, scene, say):
+    reason = END.field("reason").choices[int(v["reason"])]
+    return say(f"caption.end.{reason}") + " " + say("caption.end", radiance=several(v["radiance"]))
+
+
+CAPTIONS = {
+    "camera": _camera,
+    "hit": _hit,
+    "light": _light,
+    "bounce": _bounce,
+    "roulette": _roulette,
+    "escape": _escape,
+    "end": _end,
+}
+
+
+def why_dead(path, scene, say):
+    """One sentence on why a path carries nothing; empty for a path that carries something."""
+    if np.any(np.asarray(path.radiance) > 0):
+        return ""
+    samples = [e.values for e in path.events if e.kind.name == "light"]
+    reasons = Counter(_reason(v, scene, say) for v in samples)
+    if not samples:
+        lights = say("dead.no_samples")
+    elif len(reasons) == 1:
+        lights = say("dead.all", n=len(samples), reason=next(iter(reasons)))
+    else:
+        parts = ", ".join(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common())
+        lights = say("dead.some", n=len(samples), parts=parts)
+    return say("dead", end=say(f"dead.{path.end}"), lights=lights)
+
+
+def _reason(v, scene, say):
+    return say(f"dead.light.{light_outcome(v)}", blocker=_name("shape", v["blocker"], scene))
+
+
+def _name(domain, value, scene):
+    names = TABLES[domain](scene)
+    return names[int(value)] if 0 <= int(value) < len(names) else "?"

@@ -1,0 +1,51 @@
+"""The page: where panels stand, as one Vue template."""
+
+from viewer.panels import all_panels
+
+FRAME = """
+<castray-tab :owner="owner" :link="link" :x="picture.x" :y="picture.y"><template #default="{mine, take}">
+<div class="castray" data-testid="castray" :data-link="link">
+  <header>
+    <h1><img src="castray/icon.svg" alt="" width="20" height="20"> {{ w.title }}</h1>
+    <span class="scene" data-testid="scene">{{ header.scene }}</span>
+    <span class="dim settings" data-testid="settings">{{ header.settings }}</span>
+    <span class="grow"></span>
+    <span v-if="progress" class="progress" role="status" data-testid="progress">{{ progress }}</span>
+    <span class="keys" aria-hidden="true"><kbd>←</kbd><kbd>→</kbd> {{ w.hint_events }} <kbd>↑</kbd><kbd>↓</kbd> {{ w.hint_paths }}</span>
+  </header>
+  <aside class="left">%(left)s</aside>
+  <section class="stage" :aria-label="w.stage" data-testid="stage">%(view)s
+    <castray-labels :labels="labels" :camera="camera" view="view"><template #default="{home}">
+      <button class="home" data-testid="home" :aria-label="w.home" :title="w.home" @click="home()"><castray-icon name="home"/></button>
+    </template></castray-labels>
+    <ul class="marks" :aria-label="w.legend">
+      <li><i class="walked"></i>{{ w.legend_walked }}</li><li><i class="ahead"></i>{{ w.legend_ahead }}</li>
+      <li><i class="others"></i>{{ w.legend_others }}</li><li><i class="lit">━●</i>{{ w.legend_lit }}</li>
+      <li><i class="blocked">╍✕</i>{{ w.legend_blocked }}</li><li><i class="idle">┄</i>{{ w.legend_idle }}</li>
+    </ul>
+    <p v-if="!touched" class="hint" data-testid="hint">{{ w.hint }}</p>
+  </section>
+  <aside class="right">%(right)s
+    <div class="tabs" role="tablist" :aria-label="w.tabs">%(tablist)s</div>
+    <div class="tabbody" role="tabpanel" tabindex="0" :aria-label="w['tab_' + tab]">%(tabs)s</div>
+  </aside>
+  <footer>%(below)s</footer>
+  <p v-if="message" class="toast" role="alert" data-testid="message">{{ message }}
+    <button :aria-label="w.close" data-testid="close-message" @click="trigger('dismiss')">✕</button></p>
+  <div v-if="owner && !mine" class="takeover" role="alertdialog" :aria-label="w.taken" data-testid="taken-over"><div>
+    <p>{{ w.taken }}</p><button data-testid="take-back" @click="take()">{{ w.take_back }}</button></div></div>
+</div></template></castray-tab>
+"""
+TAB = (
+    '<button role="tab" :aria-selected="tab === \'{0}\'" :class="{{now: tab === \'{0}\'}}" data-testid="tab-{0}" '
+    "@click=\"tab = '{0}'\">{{{{ w.tab_{0} }}}}</button>"
+)
+
+
+def template(view):
+    """The whole page as a Vue template; view is the element of the 3D view."""
+    places = {place: [p for p in all_panels() if p.place == place] for place in ("left", "right", "tab", "below")}
+    slots = {place: "".join(p.template for p in panels) for place, panels in places.items() if place != "tab"}
+    slots["tablist"] = "".join(TAB.format(p.name) for p in places["tab"])
+    slots["tabs"] = "".join(f"<div v-if=\"tab === '{p.name}'\">{p.template}</div>" for p in places["tab"])
+    return FRAME % {**slots, "view": view}

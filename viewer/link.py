@@ -1,0 +1,79 @@
+"""The link that names a moment: scene, settings, pixel, path and event. It holds no key, so it can be passed on."""
+
+from dataclasses import dataclass, fields
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+
+from tracer.settings import Settings, TracerError
+
+PLACE = ("x", "y", "path", "event")
+LONGEST = 4096
+DEFAULTS = {f.name: f.default for f in fields(Settings)}
+
+
+@dataclass(frozen=True)
+class Link:
+    """What a link says. place: x, y, path, event, or None where it names no pixel."""
+
+    scene: str
+    settings: Settings
+    place: tuple | None = None
+
+    def write(self):
+        """The part after the # of an address; options that have their default are left out."""
+        said = {k: v for k, v in self.settings.as_dict().items() if v != DEFAULTS[k]}
+        place = dict(zip(PLACE, self.place, strict=True)) if self.place else {}
+        return urlencode({"scene": self.scene, **said, **place}, quote_via=quote)
+
+
+def is_link(text):
+    """Whether a command line argument is a link rather than the name of a scene or a file."""
+    return text.startswith(("http://", "https://", "#scene=", "scene="))
+
+
+def parse(text):
+    """Read a link, the whole address or the part after its #. TracerError says in one line what is wrong."""
+    if len(text) > LONGEST:
+        raise TracerError(f"link: longer than {LONGEST} characters")
+    try:
+        fragment = urlsplit(text).fragment if "#" in text else text
+        pairs = parse_qsl(fragment, strict_parsing=True, max_num_fields=32, encoding="utf-8", errors="strict")
+    except ValueError:
+        raise TracerError("link: expected an address that ends in #scene=NAME&x=..&y=..") from None
+    words = dict(pairs)
+    if len(words) != len(pairs):
+        raise TracerError("link: says the same thing twice")
+    unknown = sorted(words.keys() - {"scene", *PLACE, *DEFAULTS})
+    if unknown:
+        raise TracerError(f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS))}")
+    if not words.get("scene"):
+        raise TracerError("link: names no scene")
+    settings = Settings(**{k: _setting(k, words[k]) for k in DEFAULTS.keys() & words.keys()})
+    return Link(words["scene"], settings, _place(words))
+
+
+def _setting(name, text):
+    default = DEFAULTS[name]
+    if isinstance(default, bool):
+        if text not in ("True", "False"):
+            raise TracerError(f"link: {name}={text!r} is neither True nor False")
+        return text == "True"
+    return text if isinstance(default, str) else _whole(name, text)
+
+
+def _place(words):
+    named = [k for k in PLACE if k in words]
+    if not named:
+        return None
+    if "x" not in words or "y" not in words:
+        raise TracerError(f"link: {named[0]} without x and y of the pixel")
+    place = tuple(_whole(k, words.get(k, "0")) for k in PLACE)
+    if min(place) < 0:
+        raise TracerError("link: x, y, path and event count from 0")
+    return place
+
+
+def _whole(name, text):
+    digits = text.removeprefix("-")
+    if not (digits.isascii() and digits.isdigit() and len(digits) <= 12):
+        raise TracerError(f"link: {name}={text!r} is not a whole number")
+    return int(text)

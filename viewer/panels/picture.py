@@ -1,0 +1,44 @@
+"""The rendered picture: zoom, hover, pick, fields for x and y, exposure."""
+
+from viewer.numerals import several
+from viewer.panels.panel import Panel
+
+TEMPLATE = """
+<section class="panel picture" :aria-label="w.picture">
+  <castray-picture :rgb="rgb" :width="picture.width" :height="picture.height" :x="picture.x" :y="picture.y"
+    :exposure="exposure" :label="w.picture_label" :words="w"
+    :style="{'--aspect': picture.width / picture.height}" @pick="trigger('pick', $event)"></castray-picture>
+  <div class="row">
+    <label>x <input type="number" inputmode="numeric" min="0" :max="picture.width - 1" data-testid="pixel-x"
+      :value="picture.x" :aria-label="w.pixel_x" :title="w.pixel_x"
+      @change="trigger('pick', [$event.target.value, picture.y])"></label>
+    <label>y <input type="number" inputmode="numeric" min="0" :max="picture.height - 1" data-testid="pixel-y"
+      :value="picture.y" :aria-label="w.pixel_y" :title="w.pixel_y"
+      @change="trigger('pick', [picture.x, $event.target.value])"></label>
+    <span class="grow"></span><span>{{ w.size }} {{ picture.width }}×{{ picture.height }}</span>
+  </div>
+  <div class="row" :title="w.pixel_value"><span>RGB</span><span class="grow"></span>
+    <output class="rgb" data-testid="pixel-value" :data-exact="JSON.stringify(picture.exact)">{{ picture.value }}</output>
+  </div>
+  <label class="row" :title="w.exposure_help">{{ w.exposure }}
+    <input type="range" min="-8" max="8" step="0.25" data-testid="exposure" :aria-label="w.exposure"
+      :value="exposure" @input="exposure = Number($event.target.value)">
+    <output class="stops" data-testid="exposure-value">{{ exposure > 0 ? '+' : '' }}{{ exposure }}</output></label>
+</section>
+"""
+
+
+def show(session, say):
+    """The picked pixel and its value."""
+    cursor, record = session.cursor, session.record
+    return {
+        "width": session.settings.width,
+        "height": session.settings.height,
+        "x": cursor.x,
+        "y": cursor.y,
+        "value": several(record.value),
+        "exact": [float(v) for v in record.value],
+    }
+
+
+PANEL = Panel("picture", "left", "pixel", 10, TEMPLATE, show)

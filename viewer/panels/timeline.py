@@ -1,0 +1,47 @@
+"""The selected path as a line of events, with the buttons that walk it."""
+
+import numpy as np
+
+from viewer.panels.panel import Panel
+
+TEMPLATE = """
+<section class="timeline" :aria-label="w.timeline">
+  <div class="buttons" role="toolbar" :aria-label="w.walk">
+    <button v-for="b in ['first', 'previous', 'play', 'next', 'last']" :key="b" :data-testid="b"
+      :aria-label="b === 'play' && playing ? w.pause : w[b]" :title="b === 'play' && playing ? w.pause : w[b]"
+      @click="trigger(b === 'play' ? 'play' : 'go', [b])"><castray-icon :name="b === 'play' && playing ? 'pause' : b"/></button>
+  </div>
+  <ol class="track" data-testid="timeline">
+    <li v-for="mark in timeline.marks" :key="mark.step" :class="{vertex: mark.vertex}">
+      <button class="mark" :class="[mark.kind, {now: mark.step === event_index, gives: mark.gives, past: mark.step < event_index}]"
+        :data-testid="'mark-' + mark.step" :title="mark.title" :aria-label="mark.title"
+        :aria-current="mark.step === event_index ? 'step' : null" @click="trigger('event', [mark.step])">{{ mark.glyph }}</button></li>
+  </ol>
+  <div class="buttons paths" role="group" :aria-label="w.paths">
+    <button data-testid="up" :aria-label="w.up" :title="w.up" @click="trigger('go', ['up'])"><castray-icon name="up"/></button>
+    <span class="of" data-testid="path-of">{{ timeline.path }}</span>
+    <button data-testid="down" :aria-label="w.down" :title="w.down" @click="trigger('go', ['down'])"><castray-icon name="down"/></button>
+  </div>
+</section>
+"""
+GLYPHS = {"camera": "◉", "hit": "●", "light": "✦", "bounce": "↗", "roulette": "⚄", "escape": "↠", "end": "■"}
+
+
+def show(session, say):
+    """One mark an event; those that add light are marked."""
+    marks = [
+        {
+            "step": step,
+            "kind": event.kind.name,
+            "glyph": GLYPHS[event.kind.name],
+            "vertex": event.kind.name in ("hit", "end"),
+            "gives": bool(np.any(event.values.get("contribution", 0) > 0)),
+            "title": say("timeline.mark", event=step, kind=say(f"kind.{event.kind.name}"), depth=event.depth),
+        }
+        for step, event in enumerate(session.path.events)
+    ]
+    path = say("timeline.path", path=session.cursor.path, n=len(session.record.paths))
+    return {"marks": marks, "path": path}
+
+
+PANEL = Panel("timeline", "below", "path", 10, TEMPLATE, show)

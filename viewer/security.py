@@ -1,0 +1,176 @@
+"""Who may talk to the viewer: the browser that was given the key, from this machine, under this address.
+
+trame itself checks neither Origin nor Host, and the key its clients use is public. So every request passes
+`Door` first, and every remote call passes `restrict`.
+"""
+
+import hmac
+import inspect
+import re
+import secrets
+import sys
+from pathlib import Path
+
+from aiohttp import web
+
+from tracer.settings import TracerError
+
+STATIC = Path(__file__).parent / "static"
+REFUSED = "castray: this viewer opens only by the address that was printed when it started.\n"
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+# what the page's own code calls; everything else that trame and vtk export is closed
+CALLS = (
+    "trame.state.get",
+    "trame.state.update",
+    "trame.trigger",
+    "trame.error.client",
+    "trame.lifecycle.update",
+    "viewport.geometry.array.get",
+)
+
+
+class Door:
+    """The middleware in front of every request, WebSocket included; behind it, `page` is the answer to /."""
+
+    def __init__(self, page):
+        self.key, self.page = secrets.token_urlsafe(24), page
+
+    @web.middleware
+    async def middleware(self, request, handler):
+        """Refuse strangers; otherwise answer, with the headers that keep the page to itself."""
+        port = request.transport.get_extra_info("sockname")[1]
+        if not _from_here(request, port):
+            return web.Response(status=403, text=REFUSED, headers=HEADERS)
+        opened = self._fits(request.query.get("key", "")) and request.path == "/"
+        if not (opened or self._fits(request.cookies.get(f"castray-{port}", ""))):
+            return web.Response(status=403, text=REFUSED, headers=HEADERS)
+        response = await self._answer(request, handler)
+        if not response.prepared:
+            response.headers.update(HEADERS)
+            response.headers["Content-Security-Policy"] = _policy(port)
+            if opened:
+                # the answer is the page itself, not a redirect: a browser that came by a foreign link
+                # would not send a strict cookie along with the redirected request
+                response.set_cookie(f"castray-{port}", self.key, httponly=True, samesite="Strict", path="/")
+        return response
+
+    async def _answer(self, request, handler):
+        if request.path == "/":
+            return web.Response(text=self.page, content_type="text/html")
+        try:
+            return await handler(request)
+        except web.HTTPException as answer:
+            return web.Response(status=answer.status, text=f"{answer.reason}\n")
+        except (ConnectionError, TimeoutError):
+            raise
+        except Exception as error:
+            print(f"castray: {request.path}: {error!r}", file=sys.stderr)
+            return web.Response(status=500, text="castray: something went wrong\n")
+
+    def _fits(self, key):
+        return hmac.compare_digest(key.encode(), self.key.encode())
+
+
+def _from_here(request, port):
+    hosts = [f"127.0.0.1:{port}", f"localhost:{port}"]
+    origin = request.headers.get("Origin")
+    return request.headers.get("Host") in hosts and (origin is None or origin in [f"http://{h}" for h in hosts])
+
+
+def _policy(port):
+    sockets = f"ws://127.0.0.1:{port} ws://localhost:{port}"
+    return "; ".join(
+        (
+            "default-src 'none'",
+            "script-src 'self' 'unsafe-eval'",  # Vue compiles its templates in the page
+            "style-src 'self' 'unsafe-inline'",
+            "img-src 'self' data: blob:",
+            "font-src 'self'",
+            f"connect-src 'self' {sockets}",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors 'none'",
+        )
+    )
+
+
+def page(title):
+    """trame's page without its inline script, which the policy forbids, and with ours first."""
+    from trame_client.module.vue3 import www
+
+    original = (Path(www) / "index.html").read_text(encoding="utf-8")
+    scripts = re.findall(r'<script type="module"[^>]* src="([^"]+)"', original)
+    styles = re.findall(r'<link rel="stylesheet"[^>]* href="([^"]+)"', original)
+    lines = [
+        '<!doctype html><html lang="en" data-app-name="trame"><head><meta charset="UTF-8">',
+        f"<title>{title}</title>",
+        '<meta name="viewport" content="width=device-width,initial-scale=1">',
+        '<link rel="icon" href="castray/icon.svg">',
+        '<script src="castray/boot.js"></script>',
+        '<script src="vue.global.js"></script>',
+        *(f'<script type="module" src="{src}"></script>' for src in scripts),
+        *(f'<link rel="stylesheet" href="{href}">' for href in styles),
+        '<link rel="stylesheet" href="castray/castray.css">',
+        '</head><body><div id="app"></div></body></html>',
+    ]
+    return "\n".join(lines)
+
+
+def restrict(web_server, triggers, before_state):
+    """Leave a page only the calls it needs, checked, and answer without tracebacks.
+
+    triggers: {name: function}. before_state is called before a page is told the whole state.
+    """
+
+    def whole_state(protocol):
+        before_state()
+        return protocol.get_server_state()
+
+    async def trigger(protocol, name, args=(), kwargs=None):
+        if name not in triggers or not isinstance(args, (list, tuple)):
+            return None
+        with protocol.server.state:
+            answer = triggers[name](*args)
+            return await answer if inspect.isawaitable(answer) else answer
+
+    checked = {
+        "trame.state.get": whole_state,
+        "trame.state.update": lambda protocol, *_: None,  # a page changes the state by triggers only
+        "trame.trigger": trigger,
+        "trame.error.client": lambda protocol, message="", *_: _log(message),
+        "trame.lifecycle.update": lambda protocol, *_: None,
+    }
+    for handler in web_server._ws_handlers:
+        handler.serverProtocol.validateToken = _anyone  # the door has seen the key
+        calls = handler.functionMap
+        allowed = {uri: (calls[uri][0], _quiet(checked.get(uri, calls[uri][1]))) for uri in CALLS}
+        calls.clear()
+        calls.update(allowed)
+
+
+async def _anyone(token, client_id):
+    return True
+
+
+def _log(message):
+    print(f"castray: the page reports: {str(message)[:500]}", file=sys.stderr)
+
+
+def _quiet(function):
+    """The same call, but what goes wrong is told here in one line and to the page not at all."""
+
+    async def call(*args, **kwargs):
+        try:
+            answer = function(*args, **kwargs)
+            return await answer if inspect.isawaitable(answer) else answer
+        except (TracerError, TypeError, ValueError, KeyError, IndexError, AttributeError) as error:
+            print(f"castray: refused: {type(error).__name__}: {error}", file=sys.stderr)
+            return None
+
+    return call

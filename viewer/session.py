@@ -1,0 +1,121 @@
+"""What the viewer knows: a scene, its settings, the picked pixel's recorded paths and the place in them. No web."""
+
+from dataclasses import replace
+
+import numpy as np
+
+import tracer
+from viewer.cursor import Cursor
+from viewer.link import Link
+from viewer.numerals import luminance
+
+
+class Session:
+    """The one truth behind every panel.
+
+    load: from the name of a scene a link may ask for to that scene; TracerError where it may not.
+    """
+
+    def __init__(self, scene, settings, load):
+        self.load = load
+        self.adopt(scene, settings)
+
+    def adopt(self, scene, settings):
+        """Turn to another scene or other settings; no pixel is picked yet."""
+        self.scene, self.settings = scene, settings.at_size_of(scene)
+        self.rgb, self.spp_done = None, 0
+        self.record, self.cursor = None, None
+
+    def pick(self, x, y):
+        """Re-trace a pixel with the recorder on and stand at the start of its brightest path."""
+        self.record = tracer.inspect(self.scene, self.settings, x, y)
+        lengths = tuple(len(path.events) for path in self.record.paths)
+        self.cursor = Cursor(x, y, lengths, brightest(self.record))
+
+    def open(self, link):
+        """Turn to what a link says; True if that needs a new picture."""
+        scene = self.scene if link.scene == self.scene.name else self.load(link.scene)
+        settings = link.settings.at_size_of(scene)
+        renewed = scene is not self.scene or settings != self.settings
+        kept = self.scene, self.settings, self.rgb, self.spp_done, self.record, self.cursor
+        try:
+            if renewed:
+                self.adopt(scene, settings)
+            self.stand(link.place)
+        except (tracer.TracerError, IndexError):
+            self.scene, self.settings, self.rgb, self.spp_done, self.record, self.cursor = kept
+            raise
+        return renewed
+
+    def stand(self, place):
+        """Go to (x, y, path, event); without a place, where the scene has most to tell."""
+        if place is None:
+            self.pick(*telling_pixel(self.scene, self.settings))
+            self.cursor = self.cursor.at(most_giving(self.path))
+            return
+        x, y, path, event = place
+        if self.cursor is None or (x, y) != (self.cursor.x, self.cursor.y):
+            self.pick(x, y)
+        self.cursor = Cursor(x, y, self.cursor.lengths, path, event)
+
+    @property
+    def path(self):
+        """The recorded path the reader stands on."""
+        return self.record.paths[self.cursor.path]
+
+    @property
+    def event(self):
+        """The recorded event the reader stands at."""
+        return self.path.events[self.cursor.event]
+
+    @property
+    def link(self):
+        """The moment as a link, without a key."""
+        c = self.cursor
+        place = (c.x, c.y, c.path, c.event) if c else None
+        return Link(self.scene.name, self._asked_settings(), place)
+
+    def _asked_settings(self):
+        """The settings, the size left out where it is the scene's own."""
+        s = self.settings
+        own = (s.width, s.height) == (self.scene.width, self.scene.height)
+        return replace(s, width=None, height=None) if own else s
+
+
+def brightest(record):
+    """Which path adds most to the pixel."""
+    return int(np.argmax([luminance(path.radiance) for path in record.paths]))
+
+
+def most_giving(path):
+    """Which event of a path adds most to it; the first if none adds anything."""
+    return int(np.argmax([luminance(e.values.get("contribution", (0, 0, 0))) for e in path.events]))
+
+
+def throughput(events, index):
+    """What the path's light is multiplied by at an event: the last throughput recorded up to it."""
+    for event in reversed(events[: index + 1]):
+        if "beta" in event.values:
+            return event.values["beta"]
+    return np.ones(3)
+
+
+def telling_pixel(scene, settings, tries=9):
+    """A pixel worth opening with: of a few spread over the picture, the one whose paths differ most in kind."""
+    best, chosen = -1.0, (settings.width // 2, settings.height // 2)
+    few = settings.spp if settings.spp < 4 else 4
+    for k in range(tries):
+        x = int((0.25 + 0.25 * (k % 3)) * settings.width)
+        y = int((0.45 + 0.2 * (k // 3)) * settings.height)
+        score = _variety(tracer.inspect(scene, replace(settings, spp=few), x, y))
+        if score > best:
+            best, chosen = score, (x, y)
+    return chosen
+
+
+def _variety(record):
+    """How much a pixel shows: lit and blocked light samples together, and a path of some length."""
+    samples = [e.values["visible"] for p in record.paths for e in p.events if e.kind.name == "light"]
+    lit = sum(bool(v) for v in samples)
+    length = max(len(p.events) for p in record.paths)
+    return min(lit, len(samples) - lit) + min(length, 16) / 16 + (luminance(record.value) > 0)

@@ -1,0 +1,89 @@
+"""Real triangles for everything drawn in 3D, since the browser draws neither thick lines nor round points.
+
+Every function gives (points (P, 3), faces (F, 3)); `merge` puts several together.
+"""
+
+import numpy as np
+
+GOLDEN = (1 + 5**0.5) / 2
+ICOSAHEDRON = np.array(
+    [(s, t * GOLDEN, 0) for s in (-1, 1) for t in (-1, 1)]
+    + [(0, s, t * GOLDEN) for s in (-1, 1) for t in (-1, 1)]
+    + [(t * GOLDEN, 0, s) for s in (-1, 1) for t in (-1, 1)]
+) / np.hypot(1, GOLDEN)
+EMPTY = (np.zeros((0, 3)), np.zeros((0, 3), int))
+
+
+def _icosahedron_faces():
+    """All triples of vertices that are neighbours of each other, turned to face outwards."""
+    near = np.linalg.norm(ICOSAHEDRON[:, None] - ICOSAHEDRON[None], axis=2) < 1.1
+    n = len(ICOSAHEDRON)
+    triples = [(a, b, c) for a in range(n) for b in range(a) for c in range(b) if near[a, b] and near[b, c] and near[a, c]]
+    outward = [np.linalg.det(ICOSAHEDRON[list(t)]) > 0 for t in triples]
+    return np.array([t if out else t[::-1] for t, out in zip(triples, outward, strict=True)])
+
+
+ICOSAHEDRON_FACES = _icosahedron_faces()
+
+
+def merge(*parts):
+    """Several solids as one."""
+    counts = np.cumsum([0, *(len(points) for points, _ in parts)])
+    points = [p for p, _ in parts] or [EMPTY[0]]
+    faces = [f + start for (_, f), start in zip(parts, counts, strict=False)] or [EMPTY[1]]
+    return np.concatenate(points), np.concatenate(faces)
+
+
+def balls(centres, radius):
+    """A small ball around each centre (N, 3)."""
+    return merge(*((ICOSAHEDRON * radius + c, ICOSAHEDRON_FACES) for c in np.reshape(centres, (-1, 3))))
+
+
+def rods(starts, ends, radius, tip=None, sides=7):
+    """A straight rod from each start to its end; tip is the radius at the end (0 makes a cone)."""
+    starts, ends = np.reshape(starts, (-1, 3)), np.reshape(ends, (-1, 3))
+    return merge(*(_rod(a, b, radius, radius if tip is None else tip, sides) for a, b in zip(starts, ends, strict=True)))
+
+
+def _rod(start, end, radius, tip, sides):
+    axis = end - start
+    length = np.linalg.norm(axis)
+    if not length > 0:
+        return EMPTY
+    axis = axis / length
+    helper = np.eye(3)[np.argmin(np.abs(axis))]
+    u = np.cross(axis, helper)
+    u /= np.linalg.norm(u)
+    v = np.cross(axis, u)
+    angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)[:, None]
+    ring = np.cos(angle) * u + np.sin(angle) * v
+    points = np.concatenate([start + radius * ring, end + tip * ring, [start, end]])
+    k = np.arange(sides)
+    j = (k + 1) % sides
+    foot, head = np.full(sides, 2 * sides), np.full(sides, 2 * sides + 1)
+    faces = [(k, j, j + sides), (k, j + sides, k + sides), (j, k, foot), (k + sides, j + sides, head)]
+    return points, np.concatenate([np.stack(f, axis=1) for f in faces])
+
+
+def arrow(start, direction, length, radius):
+    """An arrow: a rod and a cone."""
+    start, direction = np.asarray(start, float), np.asarray(direction, float)
+    tip = start + length * direction
+    neck = tip - min(5.5 * radius, 0.5 * length) * direction
+    return merge(rods(start, neck, radius), rods(neck, tip, 2.6 * radius, tip=0.0, sides=12))
+
+
+def dashes(start, end, radius, dash):
+    """A broken line: rods of length `dash` with gaps as long."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    length = np.linalg.norm(end - start)
+    count = max(1, min(60, round(length / (2 * dash))))
+    at = (np.arange(count)[:, None] + np.array([[0.0, 0.5]])) / count
+    ends = start + at[..., None] * (end - start)
+    return rods(ends[:, 0], ends[:, 1], radius, sides=5)
+
+
+def cross(centre, size, radius):
+    """A mark of three crossing rods: here something stopped."""
+    offsets = size * np.array([(1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)]) / 3**0.5
+    return rods(centre - offsets, centre + offsets, radius, sides=5)

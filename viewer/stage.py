@@ -1,0 +1,172 @@
+"""The 3D view: the scene, the picked pixel's paths and the vectors of the current event, as vtk actors.
+
+Nothing is rendered here: the browser draws. Every layer keeps its mesh, and new data is copied into it.
+"""
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
+
+from viewer.numerals import srgb
+from viewer.traces import Strokes
+
+BACKGROUND = (0.055, 0.062, 0.078)
+VIEW_ANGLE = 30.0
+LAMP = (1.0, 0.97, 0.85)
+DIMMED = 0.62  # surfaces step back, so that the paths stand out
+COLOURS = {
+    "others": (0.62, 0.68, 0.78),
+    "walked": (1.0, 1.0, 1.0),
+    "ahead": (0.60, 0.66, 0.76),
+    "lit": (1.0, 0.86, 0.35),
+    "blocked": (1.0, 0.42, 0.38),
+    "idle": (0.55, 0.58, 0.64),
+    "here": (1.0, 1.0, 1.0),
+    "n": (0.45, 0.90, 0.53),
+    "wo": (0.40, 0.72, 1.0),
+    "wi": (1.0, 0.62, 0.30),
+    "light": (1.0, 0.90, 0.45),
+}
+
+
+class Layer:
+    """One actor and the mesh it keeps."""
+
+    def __init__(self, renderer, colour, opacity=1.0, lit=False, culled=False):
+        self.mesh = vtkPolyData()
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(self.mesh)
+        mapper.ScalarVisibilityOff()
+        self.actor = vtkActor()
+        self.actor.SetMapper(mapper)
+        look = self.actor.GetProperty()
+        look.SetColor(*colour)
+        look.SetOpacity(opacity)
+        look.SetLighting(lit)
+        look.SetBackfaceCulling(culled)
+        look.SetAmbient(0.45)
+        look.SetDiffuse(0.6)
+        self.actor.SetVisibility(False)
+        renderer.AddActor(self.actor)
+
+    def show(self, points, cells):
+        """Copy new data into the mesh. cells: triangles (F, 3), or line segments (F, 2)."""
+        self.actor.SetVisibility(len(cells) > 0)
+        if not len(cells):
+            return
+        self._points = np.ascontiguousarray(points, np.float32)  # vtk only borrows them
+        corners = vtkPoints()
+        corners.SetData(numpy_to_vtk(self._points))
+        width = cells.shape[1]
+        packed = np.column_stack([np.full(len(cells), width), cells]).astype(np.int64).ravel()
+        array = vtkCellArray()
+        array.ImportLegacyFormat(numpy_to_vtkIdTypeArray(packed, deep=True))
+        fresh = vtkPolyData()
+        fresh.SetPoints(corners)
+        (fresh.SetPolys if width == 3 else fresh.SetLines)(array)
+        self.mesh.DeepCopy(fresh)
+
+
+class Stage:
+    """Everything in the 3D view. window goes to the browser; labels are words at places, drawn there in HTML."""
+
+    def __init__(self, scene):
+        self.renderer = vtkRenderer()
+        self.renderer.SetBackground(*BACKGROUND)
+        self.window = vtkGenericOpenGLRenderWindow()
+        self.window.AddRenderer(self.renderer)
+        self._surfaces, self.layers = [], {}
+        for name, colour in COLOURS.items():
+            self.layers[name] = Layer(self.renderer, colour, opacity=0.5 if name == "others" else 1.0)
+        self.labels = []
+        self._light()
+        self.furnish(scene)
+
+    def _light(self):
+        lamp = vtkLight()
+        lamp.SetLightTypeToHeadlight()
+        self.renderer.AddLight(lamp)
+
+    def furnish(self, scene):
+        """Put in another scene's surfaces and look at it."""
+        for layer in self._surfaces:
+            self.renderer.RemoveActor(layer.actor)
+        low, high = (np.asarray(b, float) for b in scene.bounds())
+        self.size = float(np.linalg.norm(high - low))
+        self._surfaces = [self._surface(scene, index, low, high) for index in range(len(scene.shapes))]
+        self.strokes = Strokes(self.size)
+        self.camera = viewpoint(scene, low, high)
+        self._aim()
+
+    def _surface(self, scene, index, low, high):
+        vertices, faces = scene.shapes[index].triangles()
+        vertices, faces = np.asarray(vertices, float), np.asarray(faces, int)
+        wall = _is_wall(vertices, low, high)
+        if wall:
+            faces = _facing(vertices, faces, (low + high) / 2)
+        else:
+            faces = faces[~_pressed(vertices[faces], low, high)]
+        colour = LAMP if scene.is_light(index) else tuple(DIMMED * srgb(scene.display_colour(index)))
+        opacity = 1.0 if wall else 0.25 if scene.is_see_through(index) else 0.55
+        layer = Layer(self.renderer, colour, opacity, lit=not scene.is_light(index), culled=wall)
+        layer.show(vertices, faces)
+        return layer
+
+    def _aim(self):
+        eye = self.renderer.GetActiveCamera()
+        eye.SetPosition(*self.camera["position"])
+        eye.SetFocalPoint(*self.camera["focalPoint"])
+        eye.SetViewUp(*self.camera["viewUp"])
+        eye.SetViewAngle(VIEW_ANGLE)
+
+    def draw(self, record, cursor, level):
+        """Show the pixel's paths and the current event; level says what changed."""
+        path = record.paths[cursor.path]
+        drawn = self.strokes.event(path, cursor.event)
+        if level != "event":
+            drawn |= self.strokes.path(path) | self.strokes.others(record.paths, cursor.path)
+        for name, (points, cells) in drawn.items():
+            self.layers[name].show(points, cells)
+        self.labels = self.strokes.labels(path, cursor.event)
+
+
+def viewpoint(scene, low, high):
+    """Where to look from: the scene's own camera, stepped aside and back until everything is seen."""
+    camera = scene.camera
+    forward, up = np.asarray(camera.forward, float), np.asarray(camera.up, float)
+    side = np.cross(forward, up)
+    back = -forward + 0.38 * side + 0.24 * up
+    back /= np.linalg.norm(back)
+    centre = (low + high) / 2
+    distance = 0.5 * np.linalg.norm(high - low) / np.sin(np.radians(VIEW_ANGLE / 2)) * 0.8
+    return {
+        "position": (centre + distance * back).tolist(),
+        "focalPoint": centre.tolist(),
+        "viewUp": up.tolist(),
+        "viewAngle": VIEW_ANGLE,
+        "centerOfRotation": centre.tolist(),
+    }
+
+
+def _is_wall(vertices, low, high):
+    """Whether a shape encloses the scene or lies flat on its bounds: then it must not hide what is inside."""
+    slack = 1e-3 * np.linalg.norm(high - low)
+    mine_low, mine_high = vertices.min(axis=0), vertices.max(axis=0)
+    flat = (mine_high - mine_low < slack) & ((mine_low - low < slack) | (high - mine_high < slack))
+    return bool(flat.any() or np.all(mine_high - mine_low > 0.9 * (high - low)))
+
+
+def _pressed(triangles, low, high):
+    """Which triangles (F, 3, 3) lie flat on the scene's bounds: there they would fight with a wall."""
+    slack = 1e-3 * np.linalg.norm(high - low)
+    return ((triangles - low < slack).all(axis=1) | (high - triangles < slack).all(axis=1)).any(axis=1)
+
+
+def _facing(vertices, faces, centre):
+    """The same triangles, each turned towards a point."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    away = np.einsum("ij,ij->i", np.cross(b - a, c - a), centre - a) < 0
+    return np.where(away[:, None], faces[:, ::-1], faces)
