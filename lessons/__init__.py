@@ -1,0 +1,1 @@
+"""What one can learn from wrong tracers: the bug zoo, and the lessons."""

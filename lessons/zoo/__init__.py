@@ -1,0 +1,21 @@
+"""The bug zoo: mistakes that nearly everyone makes once, each a few lines that replace a step of the loop.
+
+    picture = tracer.render(scene, settings, steps=zoo.steps("E01"))
+
+Ids are stable: links, recordings and lessons name them.
+"""
+
+from lessons.zoo import bounce, emission, film, light, roulette
+from lessons.zoo.bug import Bug
+from tracer.settings import TracerError
+
+ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film) for bug in family.BUGS}
+
+__all__ = ["ZOO", "Bug", "steps"]
+
+
+def steps(bug_id):
+    """The Steps of a tracer with this bug. Raises TracerError with the ids there are."""
+    if bug_id not in ZOO:
+        raise TracerError(f"bug: {bug_id!r} is not in the zoo; there are {', '.join(ZOO)}")
+    return ZOO[bug_id].steps
