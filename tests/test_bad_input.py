@@ -111,7 +111,7 @@ def test_a_mesh_that_cannot_be_read(tmp_path, content):
 
 @pytest.mark.parametrize("pixel", [("8", "0"), ("0", "6"), ("-1", "0")])
 def test_a_pixel_outside_the_picture(tmp_path, pixel):
-    refused(("inspect", "cornell_unit", "--pixel", *pixel, *SMALL), "pixel", "8", "6", cwd=tmp_path)
+    refused(("inspect", "cornell_unit", "--pixel", *pixel, *SMALL), "pixel", "7", "5", cwd=tmp_path)
 
 
 def test_a_sample_that_the_pixel_does_not_have(tmp_path):
