@@ -137,10 +137,12 @@ class Scene:
         for kernel in self._kernels:
             t_k, hint = kernel.closest(rays)
             nearer = t_k < t
-            lanes = np.flatnonzero(nearer)
-            if lanes.size:
-                t[lanes] = t_k[lanes]
+            if kernel.faces == 1:
+                np.copyto(primitive, kernel.first, where=nearer)
+            else:
+                lanes = np.flatnonzero(nearer)
                 primitive[lanes] = kernel.first + kernel.face(hint, rays, t_k, lanes)
+            t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
         return t, primitive
 
     def hit(self, o, d, t, primitive):

@@ -13,7 +13,8 @@ from tracer import film
 from tracer.integrator import ALL as INTEGRATORS
 from tracer.integrator.wave import Wave
 
-LANES = 8192  # paths in a wave: its arrays stay in the second-level cache
+# Paths in a wave: enough to hide Python's cost per call, few enough to keep most arrays in the cache.
+LANES = 1 << 15
 
 
 class Task(NamedTuple):

@@ -8,8 +8,10 @@
 
 and a kernel that answers for a whole wave of Rays:
 
-    closest(rays) -> (t (N,), hint)  distance to the nearest hit, inf where there is none
-    face(hint, rays, t, lanes) -> number of the primitive within the shape, for the lanes that hit
+    first, faces                    number of its first primitive in the scene, and how many it has
+    closest(rays) -> (t (N,), hint)  distance to the nearest hit, inf or NaN where there is none
+    face(hint, rays, t, lanes)      number of the primitive within the shape for the lanes that hit, if
+                                    there is more than one
 
 A ray never hits the flat primitive it starts on (`source`) or is aimed at (`target`): both are excluded by
 identity. A convex body (cube, sphere) is left for good from its outside, and from its inside only its far

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracer.frame import dot
 from tracer.shape import transform
 from tracer.shape.rays import hits_only, linear
 
@@ -74,6 +75,8 @@ class CubeKernel:
     and the reductions ignore NaN: a ray that lies in the plane of a face (0 times infinity) is not lost.
     """
 
+    faces = 6
+
     def __init__(self, cube, first, dtype):
         inverse = np.linalg.inv(cube.to_world)
         scale = np.abs(inverse[:3, :3]).max()
@@ -81,42 +84,46 @@ class CubeKernel:
         self.first, self.last = first, first + 5
         self.rows = [tuple(dtype(v) for v in row) for row in inverse[:3, :3]]
         self.shift = [dtype(v) for v in inverse[:3, 3]]
+        # Outwards for rays, whichever side of the faces shines.
+        self.outward = transform.normals(cube.to_world, _NORMALS).astype(dtype)
+        self.one = dtype(1.0)
 
     def closest(self, rays):
         """Distance to the first face met, inf for a miss, and the rays in the cube's frame."""
         o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
         d = [linear(row, rays.d) for row in self.rows]
-        near, far = -np.inf, np.inf
+        near = far = None
         for o_k, d_k in zip(o, d, strict=True):
-            inverse = 1.0 / d_k
-            side = np.copysign(np.ones_like(d_k), d_k)
-            near = np.fmax(near, (-side - o_k) * inverse)
-            far = np.fmin(far, (side - o_k) * inverse)
+            side = np.copysign(self.one, d_k)
+            enter, leave = (-side - o_k) / d_k, (side - o_k) / d_k
+            near = enter if near is None else np.fmax(near, enter)
+            far = leave if far is None else np.fmin(far, leave)
         hit = (near <= far) & (far > 0.0)
         t = hits_only(np.where(near > 0.0, near, far), hit)
         own = (rays.source >= self.first) & (rays.source <= self.last)
         if own.any():
-            lanes = np.flatnonzero(own)
-            t[lanes] = self._from_own_face(
-                [o_k[lanes] for o_k in o], [d_k[lanes] for d_k in d], rays.source[lanes] - self.first
-            )
+            self._from_own_face(t, o, d, rays, np.flatnonzero(own))
         if rays.target is not None:
-            t[(rays.target >= self.first) & (rays.target <= self.last)] = np.inf
+            aimed = (rays.target >= self.first) & (rays.target <= self.last)
+            if aimed.any():
+                t[aimed] = np.inf
         return t, (o, d)
 
-    def _from_own_face(self, o, d, face):
-        """Distance for rays that start on this cube: none outwards, the far side inwards.
+    def _from_own_face(self, t, o, d, rays, lanes):
+        """Put right the distances of rays that start on this cube: none outwards, the far side inwards.
 
         Inwards the origin is put back into the cube first, so that a start within rounding of an edge
         cannot slip out between two faces.
         """
-        lanes = np.arange(face.size)
-        outward = np.stack(d)[face // 2, lanes] * (2 * (face % 2) - 1) > 0
-        far = np.inf
-        for o_k, d_k in zip(o, d, strict=True):
-            side = np.copysign(np.ones_like(d_k), d_k)
-            far = np.fmin(far, (side - np.clip(o_k, -1.0, 1.0)) / d_k)
-        return np.where(outward, np.inf, far)
+        outward = self.outward.take(rays.source.take(lanes) - self.first, axis=1)
+        t[lanes] = np.inf
+        lanes = lanes[dot(outward, rays.d.take(lanes, axis=1)) <= 0.0]
+        if lanes.size:
+            far = np.inf
+            for o_k, d_k in zip(o, d, strict=True):
+                o_k, d_k = o_k.take(lanes), d_k.take(lanes)
+                far = np.fmin(far, (np.copysign(self.one, d_k) - np.clip(o_k, -1.0, 1.0)) / d_k)
+            t[lanes] = far
 
     def face(self, hint, rays, t, lanes):
         """The face whose plane the hit point is nearest to, on the side the ray crosses it."""
@@ -124,5 +131,3 @@ class CubeKernel:
         p = np.stack([o_k[lanes] + t[lanes] * d_k[lanes] for o_k, d_k in zip(o, d, strict=True)])
         axis = np.argmax(np.abs(p), axis=0)
         return (2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)
-
-

@@ -96,9 +96,10 @@ class MeshKernel:
     """
 
     def __init__(self, mesh, first, dtype):
-        self.first, self.last = first, first + mesh.primitives - 1
+        self.first = first
         self.vertices = mesh.vertices.astype(dtype)
-        self.faces = mesh.faces
+        self.corners = mesh.faces
+        self.faces = len(mesh.faces)
         self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
 
     def closest(self, rays):
@@ -110,8 +111,8 @@ class MeshKernel:
         for axis in range(3):
             lanes = near[major == axis]
             step = max(1, _CHUNK // max(lanes.size, 1))
-            for start in range(0, len(self.faces) if lanes.size else 0, step):
-                block = np.arange(start, min(start + step, len(self.faces)))
+            for start in range(0, self.faces if lanes.size else 0, step):
+                block = np.arange(start, min(start + step, self.faces))
                 t_block = self._block(rays.take(lanes), axis, block)
                 best = np.argmin(t_block, axis=0)
                 t_best = t_block[best, np.arange(lanes.size)]
@@ -144,7 +145,7 @@ class MeshKernel:
         shear_y = rays.d[ky] / rays.d[axis]
         x, y, z = [], [], []
         for k in range(3):
-            v = self.vertices[self.faces[block, k]]
+            v = self.vertices[self.corners[block, k]]
             along = v[:, axis, None] - rays.o[axis]
             x.append((v[:, kx, None] - rays.o[kx]) - shear_x * along)
             y.append((v[:, ky, None] - rays.o[ky]) - shear_y * along)

@@ -37,9 +37,10 @@ def linear(row, v):
     """row . v for (3, N) v and three plain numbers, leaving out the zero ones: walls are mostly axis-aligned."""
     total = None
     for axis in range(3):
-        if row[axis] != 0.0:
-            term = v[axis] if row[axis] == 1.0 else v[axis] * row[axis]
-            total = term if total is None else total + term
+        if row[axis] == 0.0:
+            continue
+        term = v[axis] if row[axis] == 1.0 else v[axis] * row[axis]
+        total = term if total is None else total + term
     return np.zeros_like(v[0]) if total is None else total
 
 

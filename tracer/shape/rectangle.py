@@ -70,21 +70,26 @@ class RectangleKernel:
     leave no gap between them.
     """
 
+    faces = 1
+
     def __init__(self, rectangle, first, extent, dtype):
         n, c = rectangle.planes()
         n, c = n[:, 0], c[0]
         e1, e2 = rectangle.edges
-        dual = np.linalg.inv(np.stack((e1, e2, n))).T  # rows of inverse transpose: a . e1 = 1, a . e2 = 0
+        dual = _clean(np.linalg.inv(np.stack((e1, e2, n))).T[:2])  # a . e1 = 1, a . e2 = 0, a . n = 0
+        size = np.abs(dual).max(axis=1, keepdims=True)
+        rows = dual / size  # largest component 1: an axis-aligned side costs no product
         centre = rectangle.centre
         self.first = first
         self.axis = int(np.argmax(np.abs(n))) if np.count_nonzero(n) == 1 else None
         self.n = tuple(dtype(v) for v in n)
         self.c = dtype(c if self.axis is None else centre[self.axis])
-        self.rows = [tuple(dtype(v) for v in _clean(row)) for row in dual[:2]]
-        self.middles = [dtype(row @ centre) for row in dual[:2]]
+        self.rows = [tuple(dtype(v) for v in row) for row in rows]
+        self.middles = [dtype(row @ centre) for row in rows]
         eps = np.finfo(dtype).eps
         self.limits = [
-            dtype(1.0 + 8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre))) for row in dual[:2]
+            dtype(1.0 / scale[0] + 8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre)))
+            for row, scale in zip(rows, size, strict=True)
         ]
 
     def closest(self, rays):
@@ -101,11 +106,8 @@ class RectangleKernel:
             hit &= np.abs(reach - middle) <= limit
         return hits_only(t, hit), None
 
-    def face(self, hint, rays, t, lanes):
-        """A rectangle has one face."""
-        return 0
 
 
-def _clean(row):
-    """The row with what is only rounding set to zero, so that axis-aligned walls cost less."""
-    return np.where(np.abs(row) < 1e-15 * np.abs(row).max(), 0.0, row)
+def _clean(rows):
+    """The rows with what is only rounding set to zero, so that axis-aligned walls cost less."""
+    return np.where(np.abs(rows) < 1e-15 * np.abs(rows).max(axis=1, keepdims=True), 0.0, rows)

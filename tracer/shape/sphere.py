@@ -68,6 +68,8 @@ class SphereKernel:
     A ray that starts on the sphere knows one root, 0: the other is -2 b, met only when it points inwards.
     """
 
+    faces = 1
+
     def __init__(self, sphere, first, dtype):
         self.first = first
         self.center = sphere.center.astype(dtype).reshape(3, 1)
@@ -92,7 +94,3 @@ class SphereKernel:
         if rays.target is not None:
             t[rays.target == self.first] = np.inf
         return t, None
-
-    def face(self, hint, rays, t, lanes):
-        """A sphere has one surface."""
-        return 0
