@@ -1,9 +1,15 @@
 """Bad input gets one line that says what, where and what would do, exit code 2, and nothing half-written."""
 
+import errno
+import os
+import socket
 import struct
 
+import numpy as np
 import pytest
 from suite import castray
+
+import tracer
 
 SMALL = ("--size", "8", "6", "--spp", "1", "--max-depth", "2")
 
@@ -133,6 +139,10 @@ def test_a_sample_that_the_pixel_does_not_have(tmp_path):
         ("precision", ("16",)),
         ("roulette", ("2",)),
         ("sampler", ("sobel",)),
+        ("spp", ("1e30",)),
+        ("engine", ("quantum",)),
+        ("workers", ("0",)),
+        ("bug", ("no-such-bug",)),
     ],
 )
 def test_an_option_out_of_its_range(tmp_path, option, values):
@@ -153,6 +163,38 @@ def test_an_output_that_cannot_be_written(tmp_path, out):
     (tmp_path / "taken").write_text("a file where a folder should be", encoding="utf-8")
     (tmp_path / "folder.npy").mkdir()
     refused(("render", "cornell_unit", *SMALL, "-o", out), out.rpartition("/")[2], cwd=tmp_path)
+
+
+@pytest.mark.parametrize("suffix", ["exr", "png", "npy"])
+def test_a_disk_that_fills_up_leaves_the_old_picture_whole(tmp_path, monkeypatch, suffix):
+    out = tmp_path / f"out.{suffix}"
+    out.write_bytes(b"the picture of yesterday")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(tracer.TracerError, match="No space left"):
+        tracer.write(np.zeros((4, 4, 3), np.float32), out)
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"the picture of yesterday"]
+
+
+@pytest.mark.parametrize("port", ["0x50", "-1", "70000"])
+def test_a_port_that_is_none(tmp_path, port):
+    refused(("view", "cornell_unit", "--no-browser", "--port", port), "port", cwd=tmp_path)
+
+
+def test_a_port_that_is_taken(tmp_path):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        refused(("view", "cornell_unit", "--no-browser", "--port", port), port, cwd=tmp_path)
+
+
+@pytest.mark.parametrize(
+    "link", ["http://127.0.0.1:1/#scene=../../etc/passwd", "http://127.0.0.1:1/?pixel=a"]
+)
+def test_a_link_that_names_nothing_of_ours(tmp_path, link):
+    refused(("view", link, "--no-browser"), "link", cwd=tmp_path)
 
 
 def test_the_room_these_tests_spoil_is_good_itself(tmp_path):
