@@ -5,13 +5,16 @@
 Ids are stable: links, recordings and lessons name them.
 """
 
+from dataclasses import replace
+
 from lessons.zoo import bounce, emission, film, light, roulette
 from lessons.zoo.bug import Bug
+from tracer.integrator.steps import RIGHT
 from tracer.settings import TracerError
 
 ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film) for bug in family.BUGS}
 
-__all__ = ["ZOO", "Bug", "steps"]
+__all__ = ["RIGHT", "ZOO", "Bug", "changed", "steps"]
 
 
 def steps(bug_id):
@@ -19,3 +22,8 @@ def steps(bug_id):
     if bug_id not in ZOO:
         raise TracerError(f"bug: {bug_id!r} is not in the zoo; there are {', '.join(ZOO)}")
     return ZOO[bug_id].steps
+
+
+def changed(**steps):
+    """The right Steps with some replaced: what if?"""
+    return replace(RIGHT, **steps)

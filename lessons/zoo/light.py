@@ -65,7 +65,7 @@ BUGS = (
     Bug(
         "D01",
         "Shadow test without tolerance",
-        "Everything is half as bright, with dark stripes: half of the free light samples count as blocked.",
+        "Dark specks, or stripes without jitter: some of the free light samples count as blocked.",
         "visible = distance of the first hit >= |lamp point - surface point|",
         VISIBILITY,
         {"visibility": without_tolerance},
