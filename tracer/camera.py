@@ -28,7 +28,9 @@ class Camera:
             if not np.isfinite(getattr(self, name)).all():
                 raise TracerError(f"sensor.to_world: {name} holds a number that is not finite")
         if not np.linalg.norm(np.cross(self.target - self.origin, self.up_hint)) > 0.0:
-            raise TracerError("sensor.to_world: target and up lie on one line, so no side of the picture is up")
+            raise TracerError(
+                "sensor.to_world: target and up lie on one line, so no side of the picture is up"
+            )
 
     @property
     def forward(self):

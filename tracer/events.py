@@ -1,4 +1,4 @@
-"""What can happen to a path: the one schema. Recorder, files, viewer, doctor and the log's page derive from it.
+"""What can happen to a path: the one schema. All who read events derive from it.
 
 A field is *carried* (the loop has it anyway) or *derived*: declared with a pure function of carried fields
 and the scene, `derive(event, vertex, scene)`, where `event` and `vertex` map names to columns (component
@@ -184,7 +184,12 @@ LIGHT = Kind(
         Field("visible", "whether q is seen (not asked where nothing could arrive)", (), "flag"),
         Field("blocker", "first shape in the way, -1 if none", (), "shape", derive=_blocker),
         Field(
-            "blocker_distance", "distance to what is in the way", (), "distance", "m", derive=_blocker_distance
+            "blocker_distance",
+            "distance to what is in the way",
+            (),
+            "distance",
+            "m",
+            derive=_blocker_distance,
         ),
         Field("f", "BSDF from wi to wo, without the cosine", (3,), "non-negative", "1/sr"),
         Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
@@ -251,4 +256,3 @@ END = Kind(
     ),
 )
 KINDS = (CAMERA, HIT, LIGHT, BOUNCE, ROULETTE, ESCAPE, END)
-

@@ -1,7 +1,6 @@
 """Pictures on disk: OpenEXR and NumPy keep the linear numbers, PNG is for looking at."""
 
 import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +28,8 @@ def write(rgb, path):
 
     Raises TracerError where that is impossible.
     """
+    import tempfile
+
     path = Path(path)
     check_path(path)
     writer = {".exr": _write_exr, ".png": _write_png, ".npy": _write_npy}[path.suffix.lower()]
@@ -71,7 +72,7 @@ def _write_npy(rgb, path):
 
 
 def to_srgb(rgb, exposure=0.0):
-    """Linear (..., 3) to 8-bit sRGB (IEC 61966-2-1); exposure in stops. Out of range is clipped, NaN is black."""
+    """Linear (..., 3) to 8-bit sRGB (IEC 61966-2-1); exposure in stops; clipped, NaN black."""
     linear = np.clip(np.nan_to_num(rgb * 2.0**exposure, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0)
     curve = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1.0 / 2.4) - 0.055)
     return (255.0 * curve + 0.5).astype(np.uint8)

@@ -87,8 +87,12 @@ class Scene:
         self._n = np.concatenate([n for n, _ in planes], axis=1).astype(self.dtype)
         self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
         self._spheres = [
-            (first, shape.center.astype(self.dtype).reshape(3, 1), self.dtype(shape.radius),
-             self.dtype(-1.0 if shape.flip_normals else 1.0))
+            (
+                first,
+                shape.center.astype(self.dtype).reshape(3, 1),
+                self.dtype(shape.radius),
+                self.dtype(-1.0 if shape.flip_normals else 1.0),
+            )
             for first, shape in zip(self.first, self.shapes, strict=True)
             if isinstance(shape, Sphere)
         ]
@@ -99,7 +103,9 @@ class Scene:
         ]
 
     def _prepare_lights(self):
-        shining = [k for k, s in enumerate(self.definition.surfaces) if s.radiance is not None and s.radiance.any()]
+        shining = [
+            k for k, s in enumerate(self.definition.surfaces) if s.radiance is not None and s.radiance.any()
+        ]
         self.light_names = tuple(self.shapes[k].name for k in shining)
         light_of_shape = np.full(len(self.shapes), -1, np.int32)
         light_of_shape[shining] = np.arange(len(shining))
@@ -116,7 +122,9 @@ class Scene:
         if isinstance(shape, Sphere):
             side = -1.0 if shape.flip_normals else 1.0
             radius, zero = np.array([shape.radius, 0, 0]), np.zeros(3)
-            yield ShiningFace(light, first, "sphere", shape.center, radius, zero, area[0], np.array([side, 0, 0]))
+            yield ShiningFace(
+                light, first, "sphere", shape.center, radius, zero, area[0], np.array([side, 0, 0])
+            )
             return
         kind = "triangle" if isinstance(shape, Mesh) else "quad"
         corner, e1, e2 = shape.corners() if kind == "triangle" else shape.parallelograms()
@@ -163,7 +171,9 @@ class Scene:
             out = out / length(out)
             p[:, lanes] = center + radius * out
             n[:, lanes] = side * out
-            reach[lanes] = np.abs(out[0] * center[0]) + np.abs(out[1] * center[1]) + np.abs(out[2] * center[2])
+            reach[lanes] = (
+                np.abs(out[0] * center[0]) + np.abs(out[1] * center[1]) + np.abs(out[2] * center[2])
+            )
             reach[lanes] += radius
         return p, n, error_bound(p, n, reach)
 
@@ -216,7 +226,9 @@ class Scene:
         out = np.zeros((2, p.shape[1]))
         for k in np.unique(self.shape_of[primitive]):
             lanes = np.flatnonzero(self.shape_of[primitive] == k)
-            out[:, lanes] = self.shapes[k].uv(p[:, lanes].astype(np.float64), primitive[lanes] - self.first[k])
+            out[:, lanes] = self.shapes[k].uv(
+                p[:, lanes].astype(np.float64), primitive[lanes] - self.first[k]
+            )
         return out
 
     @cached_property

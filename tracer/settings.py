@@ -1,4 +1,4 @@
-"""Every option that decides a path's numbers, declared once: command line, files and viewer derive from it."""
+"""Every option that decides a path's numbers, declared once; all who ask or show derive from it."""
 
 from dataclasses import asdict, dataclass, field, fields, replace
 

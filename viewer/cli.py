@@ -44,7 +44,9 @@ def _path_options():
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
     bug = Annotated[str | None, Parameter(help="plant a bug of the zoo (`castray bugs` lists them)")]
     columns.append(("bug", bug, None))
-    return Parameter(name="*", group="Path options")(make_dataclass("PathOptions", columns, frozen=True, namespace={"__module__": __name__}))
+    return Parameter(name="*", group="Path options")(
+        make_dataclass("PathOptions", columns, frozen=True, namespace={"__module__": __name__})
+    )
 
 
 PathOptions = _path_options()
@@ -131,7 +133,9 @@ def _report(scene, picture, path, as_json):
         )
         return
     rate = picture.paths / max(picture.seconds, 1e-9)
-    print(f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)")
+    print(
+        f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"
+    )
     if not picture.complete:
         print(f"stopped early: every pixel has at least {picture.samples.min()} of {settings.spp} samples")
     if picture.dropped:
@@ -194,6 +198,8 @@ def view(
     from viewer import app as viewer_app
     from viewer.link import is_link
 
+    if port is not None and not 0 <= port <= 65535:
+        raise TracerError(f"port: {port} is not between 0 and 65535")
     if is_link(scene):
         viewer_app.serve_link(scene, port, browser)
         return
@@ -207,7 +213,12 @@ def bugs(*, json: Json = False):
     from lessons.zoo import ZOO
 
     if json:
-        _print_json([{"id": bug.id, "title": bug.title, "symptom": bug.symptom, "law": bug.law} for bug in ZOO.values()])
+        _print_json(
+            [
+                {"id": bug.id, "title": bug.title, "symptom": bug.symptom, "law": bug.law}
+                for bug in ZOO.values()
+            ]
+        )
         return
     from viewer.report import print_bugs
 

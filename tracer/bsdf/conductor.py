@@ -26,9 +26,7 @@ class Conductor(Material):
     def reflectance_at(self, cos):
         """Unpolarised reflectance (3, N) for the cosine of wo."""
         perfect = np.isinf(self.k)
-        rs, rp = fresnel.conductor(
-            cos, np.where(perfect, 1.0, self.eta), np.where(perfect, 0.0, self.k)
-        )
+        rs, rp = fresnel.conductor(cos, np.where(perfect, 1.0, self.eta), np.where(perfect, 0.0, self.k))
         return np.where(perfect, 1.0, 0.5 * (rs + rp)).astype(cos.dtype) * self.specular_reflectance
 
     def albedo(self):

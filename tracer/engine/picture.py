@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer import film
-from tracer.engine import processes, waves
+from tracer.engine import waves
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.recorder import RecordedPath, number, record
@@ -63,6 +63,11 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT):
 
 def _results(scene, settings, steps, workers):
     """Results in order: from this process, then from several once it is clear that the rest is worth it."""
+    if workers == 1:
+        yield from (waves.trace(scene, settings, steps, task) for task in waves.tasks(settings))
+        return
+    from tracer.engine import processes  # where it is used: multiprocessing takes long to import
+
     tasks = waves.tasks(settings)
     left = settings.width * settings.height * settings.spp
     for task in tasks:
@@ -70,7 +75,7 @@ def _results(scene, settings, steps, workers):
         yield waves.trace(scene, settings, steps, task)
         paths = (task.stop - task.start) * task.samples
         left -= paths
-        if workers > 1 and (time.perf_counter() - began) / paths * left > processes.WORTH_A_START:
+        if (time.perf_counter() - began) / paths * left > processes.WORTH_A_START:
             break
     yield from processes.traced((scene, settings, steps), tasks, workers) if left else ()
 

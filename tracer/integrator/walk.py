@@ -1,4 +1,4 @@
-"""The rendering equation and nothing else: follow the surface's own choice of direction until it hits a light.
+"""The rendering equation and nothing else: follow each surface's choice until a light is hit.
 
     Lo(p, wo) = Le(p, wo) + integral of f(p, wo, wi) Li(p, wi) |cos theta| dwi      (Kajiya 1986)
 

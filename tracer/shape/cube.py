@@ -9,9 +9,7 @@ from tracer.shape import transform
 from tracer.shape.rays import hits_only, linear
 
 # Outward local normals: face 2k looks along -axis k, face 2k + 1 along +axis k.
-_NORMALS = np.array(
-    [[-1, 1, 0, 0, 0, 0], [0, 0, -1, 1, 0, 0], [0, 0, 0, 0, -1, 1]], np.float64
-)
+_NORMALS = np.array([[-1, 1, 0, 0, 0, 0], [0, 0, -1, 1, 0, 0], [0, 0, 0, 0, -1, 1]], np.float64)
 
 
 @dataclass(frozen=True)
@@ -44,8 +42,10 @@ class Cube:
         first = np.roll(np.abs(_NORMALS), 1, axis=0)
         second = np.roll(np.abs(_NORMALS), 2, axis=0)
         corner = transform.points(self.to_world, _NORMALS - first - second)
-        return corner, 2.0 * transform.vectors(self.to_world, first), 2.0 * transform.vectors(
-            self.to_world, second
+        return (
+            corner,
+            2.0 * transform.vectors(self.to_world, first),
+            2.0 * transform.vectors(self.to_world, second),
         )
 
     def triangles(self):

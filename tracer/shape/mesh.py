@@ -77,7 +77,9 @@ def _check(name, vertices, faces):
     """TracerError naming the first vertex or face that cannot be."""
     bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if bad.size:
-        raise TracerError(f"{name}: vertex {bad[0]} has a coordinate that is not a finite number; mend the mesh")
+        raise TracerError(
+            f"{name}: vertex {bad[0]} has a coordinate that is not a finite number; mend the mesh"
+        )
     if faces.size == 0:
         raise TracerError(f"{name}: the mesh has no triangles")
     bad = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
@@ -154,7 +156,9 @@ class MeshKernel:
         if u.dtype == np.float32:
             again = (u == 0.0) | (v == 0.0) | (w == 0.0)
             if again.any():
-                exact = _edges([c[again].astype(np.float64) for c in x], [c[again].astype(np.float64) for c in y])
+                exact = _edges(
+                    [c[again].astype(np.float64) for c in x], [c[again].astype(np.float64) for c in y]
+                )
                 for edge, better in zip((u, v, w), exact, strict=True):
                     edge[again] = better
         inside = ((u >= 0.0) & (v >= 0.0) & (w >= 0.0)) | ((u <= 0.0) & (v <= 0.0) & (w <= 0.0))

@@ -34,7 +34,7 @@ class Rays(NamedTuple):
 
 
 def linear(row, v):
-    """row . v for (3, N) v and three plain numbers, leaving out the zero ones: walls are mostly axis-aligned."""
+    """row . v for (3, N) v and three plain numbers, without the zero ones: walls are mostly axis-aligned."""
     total = None
     for axis in range(3):
         if row[axis] == 0.0:

@@ -107,7 +107,6 @@ class RectangleKernel:
         return hits_only(t, hit), None
 
 
-
 def _clean(rows):
     """The rows with what is only rounding set to zero, so that axis-aligned walls cost less."""
     return np.where(np.abs(rows) < 1e-15 * np.abs(rows).max(axis=1, keepdims=True), 0.0, rows)

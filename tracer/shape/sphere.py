@@ -55,7 +55,9 @@ class Sphere:
     def uv(self, p, face):
         """Longitude and latitude, (2, N) from 0 to 1."""
         n = (p - self.center[:, None]) / self.radius
-        return np.stack((np.arctan2(n[1], n[0]) / (2.0 * np.pi) % 1.0, np.arccos(np.clip(n[2], -1, 1)) / np.pi))
+        return np.stack(
+            (np.arctan2(n[1], n[0]) / (2.0 * np.pi) % 1.0, np.arccos(np.clip(n[2], -1, 1)) / np.pi)
+        )
 
     def kernel(self, first, extent, dtype):
         """The intersection routine."""

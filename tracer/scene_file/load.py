@@ -4,14 +4,14 @@ A scene is a table of named objects, each with a `type`. A transform is a list o
 which they are applied. What is not supported is an error that names the place and the words that would do.
 """
 
-import tomllib
 from pathlib import Path
 
-from tracer import scene_words as words
 from tracer.scene import Definition, Scene, Surface
+from tracer.scene_file import objects
+from tracer.scene_file.words import Words, listed
 from tracer.settings import TracerError
 
-BUILT_IN = Path(__file__).resolve().parents[1] / "scenes"
+BUILT_IN = Path(__file__).resolve().parents[2] / "scenes"
 
 
 def built_in_scenes():
@@ -24,6 +24,8 @@ def load(scene):
 
     Raises TracerError with file, place, word, and the words that would do.
     """
+    import tomllib
+
     text = str(scene)
     path = Path(text)
     if path.suffix.lower() != ".toml":
@@ -33,7 +35,7 @@ def load(scene):
             known = ", ".join(built_in_scenes())
             raise TracerError(f"{text}: no such scene; give a .toml file or one of {known}")
     try:
-        source = path.read_text(encoding="utf-8")
+        source = path.read_text(encoding="utf-8-sig")  # some editors put a mark first
         description = tomllib.loads(source)
     except OSError as error:
         raise TracerError(f"{path}: cannot be read: {error.strerror or error}") from None
@@ -53,48 +55,46 @@ def load_dict(description, name="scene", folder="."):
     """A Scene from nested dicts. folder: where mesh files are looked for. Raises TracerError."""
     if not isinstance(description, dict):
         raise TracerError("a scene is a table of named objects")
-    objects = {key: value for key, value in description.items() if key != "type"}
+    named = {key: value for key, value in description.items() if key != "type"}
     if description.get("type", "scene") != "scene":
-        raise TracerError(f"type: {description['type']!r} at the top; a scene says \"scene\" or nothing there")
-    kinds = {key: words.kind_of(value, key) for key, value in objects.items()}
-    bsdfs = {key: words.bsdf(objects[key], key) for key, kind in kinds.items() if kind == "bsdf"}
+        raise TracerError(f'type: {description["type"]!r} at the top; a scene says "scene" or nothing there')
+    kinds = {key: objects.kind_of(value, key) for key, value in named.items()}
+    bsdfs = {key: objects.bsdf(named[key], key) for key, kind in kinds.items() if kind == "bsdf"}
     surfaces = tuple(
-        _surface(words.Words(objects[key], key), bsdfs, Path(folder))
+        _surface(Words(named[key], key), bsdfs, Path(folder))
         for key, kind in kinds.items()
         if kind == "shape"
     )
     sensors = [key for key, kind in kinds.items() if kind == "sensor"]
     if len(sensors) != 1:
-        raise TracerError(f"a scene has one sensor (type \"perspective\"); here are {len(sensors)}")
+        raise TracerError(f'a scene has one sensor (type "perspective"); here are {len(sensors)}')
     if not surfaces:
-        raise TracerError(f"no shapes; add one of type {words.listed(words.SHAPES)}")
-    camera, width, height = words.sensor(objects[sensors[0]], sensors[0])
+        raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
+    camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
     return Scene(Definition(name, surfaces, used, camera, width, height))
 
 
 def _surface(table, bsdfs, folder):
     """One shape with its material, which is added to `bsdfs` if it is written inside the shape."""
-    shape = words.shape(table, folder)
-    radiance = words.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
+    shape = objects.shape(table, folder)
+    radiance = objects.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
     given = table.take("bsdf", None)
     table.finish()
     if given is None:
-        bsdfs.setdefault("default", words.bsdf({"type": "diffuse"}, "default"))
+        bsdfs.setdefault("default", objects.bsdf({"type": "diffuse"}, "default"))
         return Surface(shape, "default", radiance)
     if isinstance(given, dict) and given.get("type") == "ref":
-        reference = words.Words(given, f"{table.place}.bsdf")
+        reference = Words(given, f"{table.place}.bsdf")
         given = reference.take("id")
         reference.take("type")
         reference.finish()
     if isinstance(given, dict):
         inline = f"{table.place}.bsdf"
-        bsdfs[inline] = words.bsdf(given, inline)
+        bsdfs[inline] = objects.bsdf(given, inline)
         return Surface(shape, inline, radiance)
     if given not in bsdfs:
         raise TracerError(
-            f"{table.place}.bsdf: no material {given!r} in this scene; there are {words.listed(bsdfs) or 'none'}"
+            f"{table.place}.bsdf: no material {given!r} in this scene; there are {listed(bsdfs) or 'none'}"
         )
     return Surface(shape, given, radiance)
-
-

@@ -16,7 +16,9 @@ def read(path, place):
         mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
         vertices, faces = np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
     except Exception as error:  # trimesh raises whatever its parsers do
-        raise TracerError(f"{place}: {path} cannot be read as a mesh: {type(error).__name__}: {error}") from None
+        raise TracerError(
+            f"{place}: {path} cannot be read as a mesh: {type(error).__name__}: {error}"
+        ) from None
     if vertices.ndim != 2 or vertices.shape[1:] != (3,) or faces.ndim != 2 or faces.shape[1:] != (3,):
         raise TracerError(f"{place}: {path} holds no triangles")
     return vertices, faces

@@ -1,0 +1,170 @@
+"""The vocabulary of scene descriptions: what each object may say, and what it means."""
+
+import numpy as np
+
+from tracer.bsdf import Conductor, Dielectric, Diffuse
+from tracer.camera import Camera
+from tracer.scene_file.to_world import to_world
+from tracer.scene_file.words import MISSING, Words, colour, listed, near, real, triple
+from tracer.settings import TracerError
+from tracer.shape import Cube, Mesh, Rectangle, Sphere
+
+SHAPES = ("rectangle", "cube", "sphere", "obj", "ply")
+BSDFS = ("diffuse", "conductor", "dielectric")
+SENSORS = ("perspective",)
+
+# Indices of refraction at 589 nm, by the names Mitsuba uses.
+INDICES = {"vacuum": 1.0, "air": 1.000277, "water": 1.333, "bk7": 1.5046, "diamond": 2.419}
+
+
+def kind_of(table, place):
+    """Whether a named object is a "shape", a "bsdf" or a "sensor"."""
+    kind = Words(table, place).take("type")
+    for family, known in (("shape", SHAPES), ("bsdf", BSDFS), ("sensor", SENSORS)):
+        if kind in known:
+            return family
+    known = (*SHAPES, *BSDFS, *SENSORS)
+    raise TracerError(f"{place}.type: {kind!r} is not supported; {near(kind, known)}known: {listed(known)}")
+
+
+def bsdf(description, place):
+    """A material with one parameter column."""
+    table = Words(description, place)
+    kind = table.take("type")
+    readers = {"diffuse": _diffuse, "conductor": _conductor, "dielectric": _dielectric}
+    if kind not in readers:
+        raise TracerError(f"{place}.type: {kind!r} is not a material; known: {listed(BSDFS)}")
+    material = readers[kind](table)
+    table.finish()
+    return material
+
+
+def _diffuse(table):
+    return Diffuse(_column(table, "reflectance", 0.5, 1.0))
+
+
+def _column(table, word, default, most=np.inf):
+    return colour(table.take(word, default), f"{table.place}.{word}", most)[:, None]
+
+
+def _conductor(table):
+    material = table.take("material", None)
+    factor = _column(table, "specular_reflectance", 1.0, 1.0)
+    if material == "none" or (material is None and "eta" not in table.table and "k" not in table.table):
+        return Conductor(np.ones((3, 1)), np.full((3, 1), np.inf), factor)
+    if material is not None:
+        raise TracerError(
+            f'{table.place}.material: {material!r} is not known; say "none" (a mirror) or give eta and k'
+        )
+    eta = _column(table, "eta", MISSING)
+    return Conductor(eta, _column(table, "k", MISSING), factor)
+
+
+def _dielectric(table):
+    inside, outside = _index(table, "int_ior", "bk7"), _index(table, "ext_ior", "air")
+    return Dielectric(
+        np.array([inside / outside]),
+        _column(table, "specular_reflectance", 1.0, 1.0),
+        _column(table, "specular_transmittance", 1.0, 1.0),
+    )
+
+
+def _index(table, word, default):
+    value, place = table.take(word, default), f"{table.place}.{word}"
+    if isinstance(value, str):
+        if value not in INDICES:
+            raise TracerError(f"{place}: {value!r} is not known; give a number or one of {listed(INDICES)}")
+        return INDICES[value]
+    if real(value, place) <= 0.0:
+        raise TracerError(f"{place}: {value:g} is no index of refraction; it has to be above 0")
+    return float(value)
+
+
+def area_emitter(description, place):
+    """Radiance (3,) of a shining shape, None if it does not shine."""
+    if description is None:
+        return None
+    table = Words(description, place)
+    if table.take("type") != "area":
+        raise TracerError(f"{place}.type: {description['type']!r} is not supported on a shape; known: area")
+    radiance = colour(table.take("radiance"), f"{place}.radiance")
+    table.finish()
+    return radiance
+
+
+def shape(table, folder):
+    """A shape; the words for material and emitter are left for the caller to take."""
+    kind, place = table.take("type"), table.place
+    flip = table.take("flip_normals", False)
+    if not isinstance(flip, bool):
+        raise TracerError(f"{place}.flip_normals: {flip!r} is neither true nor false")
+    matrix = to_world(table.take("to_world", []), f"{place}.to_world")
+    if kind == "rectangle":
+        return Rectangle(place, matrix, flip)
+    if kind == "cube":
+        return Cube(place, matrix, flip)
+    if kind == "sphere":
+        return _sphere(table, matrix, flip)
+    return _mesh(table, matrix, flip, folder)
+
+
+def _sphere(table, matrix, flip):
+    place = table.place
+    center = triple(table.take("center", [0.0, 0.0, 0.0]), f"{place}.center")
+    radius = real(table.take("radius", 1.0), f"{place}.radius", 0.0)
+    scale = np.linalg.norm(matrix[:3, 0])
+    if not np.allclose(
+        matrix[:3, :3].T @ matrix[:3, :3], scale**2 * np.eye(3), rtol=1e-9, atol=1e-12 * scale**2
+    ):
+        raise TracerError(f"{place}.to_world: stretches the sphere; scale it evenly, or use a mesh")
+    return Sphere(place, matrix[:3, :3] @ center + matrix[:3, 3], radius * scale, flip)
+
+
+def _mesh(table, matrix, flip, folder):
+    from tracer.scene_file.mesh_file import read
+
+    filename = table.take("filename")
+    if not isinstance(filename, str):
+        raise TracerError(f"{table.place}.filename: {filename!r} is not the name of a file")
+    if table.take("face_normals", True) is not True:
+        raise TracerError(f"{table.place}.face_normals: only true is supported: meshes are flat shaded")
+    vertices, faces = read(folder / filename, f"{table.place}.filename")
+    turned = np.linalg.det(matrix[:3, :3]) < 0.0  # a reflection turns the winding round
+    moved = vertices @ matrix[:3, :3].T + matrix[:3, 3]
+    try:
+        return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip)
+    except TracerError as error:
+        raise TracerError(f"{error} ({folder / filename})") from None
+
+
+def sensor(description, place):
+    """Camera, width and height."""
+    table = Words(description, place)
+    table.take("type")
+    matrix = to_world(table.take("to_world", []), f"{place}.to_world")
+    width, height = _film(table.take("film", {}), f"{place}.film")
+    fov = real(table.take("fov"), f"{place}.fov")
+    axis = table.take("fov_axis", "x")
+    table.finish()
+    if not 0.0 < fov < 180.0:
+        raise TracerError(f"{place}.fov: {fov:g} degrees is not between 0 and 180")
+    if axis not in ("x", "y", "smaller", "larger"):
+        raise TracerError(f"{place}.fov_axis: {axis!r} is not known; choose x, y, smaller or larger")
+    if np.linalg.det(matrix[:3, :3]) <= 0.0:
+        raise TracerError(f"{place}.to_world: flattens or mirrors the view; use look_at")
+    if axis == "y" or axis == ("smaller" if height < width else "larger"):
+        half = np.tan(np.radians(0.5 * fov)) * width / height
+        fov = float(np.degrees(2.0 * np.arctan(half)))
+    origin, forward = matrix[:3, 3], matrix[:3, 2]
+    return Camera(origin, origin + forward, matrix[:3, 1], fov), width, height
+
+
+def _film(description, place):
+    table = Words(description, place)
+    table.take("type", "hdrfilm")
+    size = [table.take("width", 256), table.take("height", 256)]
+    table.finish()
+    for word, value in zip(("width", "height"), size, strict=True):
+        if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= 65535:
+            raise TracerError(f"{place}.{word}: {value!r} is not a whole number from 1 to 65535")
+    return size

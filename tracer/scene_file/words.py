@@ -1,0 +1,77 @@
+"""Reading the tables of a scene word by word, with errors that name the place and what would do."""
+
+import numpy as np
+
+from tracer.settings import TracerError
+
+MISSING = object()  # a word without a default
+
+
+def listed(names):
+    """Names in one line."""
+    return ", ".join(map(str, names))
+
+
+def near(word, known):
+    """A hint at the known word that `word` may have been meant to be, or nothing."""
+    from difflib import get_close_matches
+
+    match = get_close_matches(str(word), known, 1)
+    return f"did you mean {match[0]!r}? " if match else ""
+
+
+class Words:
+    """A table that is read word by word; finish() names the words nobody asked for."""
+
+    def __init__(self, table, place):
+        if not isinstance(table, dict):
+            raise TracerError(f"{place}: is {table!r}, but has to be a table with a type")
+        self.table, self.place, self._known = table, place, []
+
+    def take(self, word, default=MISSING):
+        """The value of a word; TracerError if it is missing and has no default."""
+        self._known.append(word)
+        if word in self.table:
+            return self.table[word]
+        if default is MISSING:
+            raise TracerError(f"{self.place}.{word}: is missing")
+        return default
+
+    def finish(self):
+        """TracerError for the first word that nothing understood."""
+        for word in self.table:
+            if word not in self._known:
+                known = f"{near(word, self._known)}known here: {listed(self._known)}"
+                raise TracerError(f"{self.place}.{word}: unknown word; {known}")
+
+
+def real(value, place, least=-np.inf, most=np.inf):
+    """A finite number within limits."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TracerError(f"{place}: {value!r} is not a number")
+    if not np.isfinite(value):
+        raise TracerError(f"{place}: {value} is not a finite number")
+    if not least <= value <= most:
+        limits = f"at least {least:g}" if most == np.inf else f"from {least:g} to {most:g}"
+        raise TracerError(f"{place}: {value:g} is out of range; it has to be {limits}")
+    return float(value)
+
+
+def triple(value, place, least=-np.inf, most=np.inf):
+    """Three finite numbers within limits, (3,) float64."""
+    if not isinstance(value, (list, tuple, np.ndarray)) or len(value) != 3:
+        raise TracerError(f"{place}: {value!r} is not a list of three numbers")
+    return np.array([real(v, f"{place}[{k}]", least, most) for k, v in enumerate(value)])
+
+
+def colour(value, place, most=np.inf):
+    """A linear RGB colour from a number, three numbers, or {type = "rgb", value = ...}, (3,) float64."""
+    if isinstance(value, dict):
+        table = Words(value, place)
+        if table.take("type") != "rgb":
+            raise TracerError(f"{place}.type: {value['type']!r} is not supported; known: rgb")
+        value = table.take("value")
+        table.finish()
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        value = [value] * 3
+    return triple(value, place, 0.0, most)
