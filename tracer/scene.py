@@ -86,16 +86,16 @@ class Scene:
         planes = [shape.planes() for shape in self.shapes]
         self._n = np.concatenate([n for n, _ in planes], axis=1).astype(self.dtype)
         self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
-        self._spheres = [
-            (
-                first,
-                shape.center.astype(self.dtype).reshape(3, 1),
-                self.dtype(shape.radius),
-                self.dtype(-1.0 if shape.flip_normals else 1.0),
-            )
-            for first, shape in zip(self.first, self.shapes, strict=True)
-            if isinstance(shape, Sphere)
-        ]
+        self._reach = np.abs(self._c)  # what enters a primitive's error bound beside the point itself
+        self._spheres = []
+        for first, shape in zip(self.first, self.shapes, strict=True):
+            if isinstance(shape, Sphere):
+                center, side = (
+                    shape.center.astype(self.dtype).reshape(3, 1),
+                    -1.0 if shape.flip_normals else 1.0,
+                )
+                self._spheres.append((first, center, self.dtype(shape.radius), self.dtype(side)))
+                self._reach[first] = np.abs(shape.center).sum() + shape.radius
         extent = max(np.abs(self.bounds()).max(), np.abs(self.camera.origin).max())
         self._kernels = [
             shape.kernel(int(first), extent, self.dtype)
@@ -164,18 +164,16 @@ class Scene:
         """Points put onto their surfaces, the normals there, and the bound on what is left."""
         n, c = self._n.take(primitive, axis=1), self._c.take(primitive)
         p = p - (dot(n, p) - c) * n
-        reach = np.abs(c)
         for first, center, radius, side in self._spheres:
             lanes = np.flatnonzero(primitive == first)
             out = p[:, lanes] - center
             out = out / length(out)
             p[:, lanes] = center + radius * out
             n[:, lanes] = side * out
-            reach[lanes] = (
-                np.abs(out[0] * center[0]) + np.abs(out[1] * center[1]) + np.abs(out[2] * center[2])
-            )
-            reach[lanes] += radius
-        return p, n, error_bound(p, n, reach)
+        return p, n, self._bound(p, n, primitive)
+
+    def _bound(self, p, n, primitive):
+        return error_bound(p, n, self._reach.take(primitive))
 
     def spawn(self, hit, wi):
         """Where a ray that leaves a hit along wi (3, N) starts, (3, N)."""
@@ -199,10 +197,9 @@ class Scene:
 
     def occluded(self, hit, light):
         """Whether anything lies between each hit and its point on a light, (N,)."""
-        end = leave(
-            light.q, light.nq, error_bound(light.q, light.nq, np.abs(dot(light.q, light.nq))), -light.wi
+        rays, distance = self._between(
+            hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
-        rays, distance = _segments(self.spawn(hit, light.wi), end, hit.primitive, light.primitive)
         blocked = np.zeros(distance.shape, bool)
         for kernel in self._kernels:
             blocked |= kernel.closest(rays)[0] < distance
@@ -211,15 +208,21 @@ class Scene:
     def blocker(self, vertex, event):
         """First shape (N,) between the hits and light points of recorded events, -1 for none, and its
         distance, inf for none. vertex, event: columns of a HIT and a LIGHT."""
-        q, nq = event["q"], event["nq"]
-        _, ng, bound = self._on_surface(vertex["p"], vertex["primitive"])
-        o = leave(vertex["p"], ng, bound, event["wi"])
-        end = leave(q, nq, error_bound(q, nq, np.abs(dot(q, nq))), -event["wi"])
-        rays, distance = _segments(o, end, vertex["primitive"], event["primitive"])
+        rays, distance = self._between(
+            *(vertex[name] for name in ("p", "ng", "primitive")),
+            *(event[name] for name in ("q", "nq", "primitive", "wi")),
+        )
         t, primitive = self._closest(rays)
         could_shine = (event["f"].max(axis=0) > 0.0) & (event["Le"].max(axis=0) > 0.0)
         blocked = (t < distance) & (primitive >= 0) & could_shine & ~event["visible"]
         return np.where(blocked, self.shape_of[primitive], -1), np.where(blocked, t, np.inf)
+
+    def _between(self, p, n, source, q, nq, target, wi):
+        """Rays from p to q, both moved off their surfaces towards each other, and their lengths (N,)."""
+        start = leave(p, n, self._bound(p, n, source), wi)
+        gap = leave(q, nq, self._bound(q, nq, target), -wi) - start
+        distance = length(gap)
+        return Rays.towards(start, gap / distance, source, target), distance
 
     def uv(self, p, primitive):
         """Coordinates (2, N) of points on their primitives."""
@@ -253,10 +256,3 @@ class Scene:
     def is_see_through(self, shape):
         """Whether light passes through a shape."""
         return not self.definition.bsdfs[self.definition.surfaces[shape].bsdf].one_sided
-
-
-def _segments(start, end, source, target):
-    """Rays from start to end, both (3, N), and their lengths (N,)."""
-    gap = end - start
-    distance = length(gap)
-    return Rays.towards(start, gap / distance, source, target), distance

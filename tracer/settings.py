@@ -4,6 +4,8 @@ from dataclasses import asdict, dataclass, field, fields, replace
 
 import numpy as np
 
+MOST_PIXELS = 10**8  # the film then takes 5 GB
+
 
 class TracerError(ValueError):
     """Bad input: one line that says what, where, and what would do."""
@@ -97,7 +99,10 @@ class Settings:
 
     def at_size_of(self, scene):
         """These settings with the scene's own picture size where none was asked for."""
-        return replace(self, width=self.width or scene.width, height=self.height or scene.height)
+        width, height = self.width or scene.width, self.height or scene.height
+        if width * height > MOST_PIXELS:
+            raise TracerError(f"size: {width} x {height} is more than {MOST_PIXELS} pixels")
+        return replace(self, width=width, height=height)
 
     def as_dict(self):
         """Plain values by name, as files and links keep them."""

@@ -250,6 +250,9 @@ def main(words=None):
     except (TracerError, CycloptsError) as error:
         print(f"castray: {' '.join(str(error).split())}", file=sys.stderr)
         sys.exit(2)
+    except MemoryError:
+        print("castray: not enough memory for that; try a smaller --size or fewer --spp", file=sys.stderr)
+        sys.exit(2)
     except KeyboardInterrupt:
         print("castray: stopped", file=sys.stderr)
         sys.exit(130)

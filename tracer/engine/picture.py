@@ -12,6 +12,8 @@ from tracer.integrator.wave import Wave
 from tracer.recorder import RecordedPath, number, record
 from tracer.settings import Settings, TracerError
 
+MOST_RECORDED = 1 << 16  # paths: about 2 GB of events
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -115,6 +117,10 @@ def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
         )
     if sample is not None and not 0 <= sample < settings.spp:
         raise TracerError(f"sample {sample} is not there: samples go from 0 to {settings.spp - 1}")
+    if sample is None and settings.spp > MOST_RECORDED:
+        raise TracerError(
+            f"{settings.spp} samples are too many to record at once; choose one, or spp up to {MOST_RECORDED}"
+        )
     samples = np.arange(settings.spp) if sample is None else np.array([sample])
     wave = Wave(np.full(samples.size, x), np.full(samples.size, y), samples, settings, steps)
     with np.errstate(all="ignore"):
