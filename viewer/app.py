@@ -258,8 +258,8 @@ class Viewer:
     def _load(self, name):
         """A scene that a link may name: one this server was started with, or a built-in one."""
         if name not in self.scenes:
-            if name not in built_in():
-                known = ", ".join(sorted({*self.scenes, *built_in()}))
+            if name not in tracer.built_in_scenes():
+                known = ", ".join(sorted({*self.scenes, *tracer.built_in_scenes()}))
                 raise TracerError(f"link: scene {name[:80]!r} is not known here; known: {known}")
             self.scenes[name] = tracer.load(name)
         return self.scenes[name]
@@ -309,16 +309,9 @@ def serve(scene, settings, port=None, open_browser=True, start=None):
 def serve_link(text, port=None, open_browser=True):
     """Open the viewer where a link points."""
     asked = links.parse(text)
-    if asked.scene not in built_in():
-        raise TracerError(f"link: scene {asked.scene[:80]!r} is not built in; built in: {', '.join(sorted(built_in()))}")
+    if asked.scene not in tracer.built_in_scenes():
+        raise TracerError(f"link: scene {asked.scene[:80]!r} is not built in; built in: {', '.join(sorted(tracer.built_in_scenes()))}")
     serve(tracer.load(asked.scene), asked.settings, port, open_browser, asked.place)
-
-
-def built_in():
-    """Names of the scenes that come with the program."""
-    from importlib.resources import files
-
-    return {entry.name.removesuffix(".toml") for entry in files("scenes").iterdir() if entry.name.endswith(".toml")}
 
 
 def _fonts():

@@ -16,9 +16,10 @@ from viewer.traces import Strokes
 BACKGROUND = (0.055, 0.062, 0.078)
 VIEW_ANGLE = 30.0
 LAMP = (1.0, 0.97, 0.85)
+FEW = 256  # so many faces are looked at one by one
 DIMMED = 0.62  # surfaces step back, so that the paths stand out
 COLOURS = {
-    "others": (0.62, 0.68, 0.78),
+    "others": (0.36, 0.40, 0.48),
     "walked": (1.0, 1.0, 1.0),
     "ahead": (0.60, 0.66, 0.76),
     "lit": (1.0, 0.86, 0.35),
@@ -42,13 +43,15 @@ class Layer:
         mapper.ScalarVisibilityOff()
         self.actor = vtkActor()
         self.actor.SetMapper(mapper)
+        # blended over what is already there, in one pass: the browser's own transparency costs it 40 ms a picture
+        self.actor.SetForceOpaque(True)
         look = self.actor.GetProperty()
         look.SetColor(*colour)
         look.SetOpacity(opacity)
         look.SetLighting(lit)
         look.SetBackfaceCulling(culled)
-        look.SetAmbient(0.45)
-        look.SetDiffuse(0.6)
+        look.SetAmbient(0.65)
+        look.SetDiffuse(0.45)
         self.actor.SetVisibility(False)
         renderer.AddActor(self.actor)
 
@@ -70,6 +73,49 @@ class Layer:
         self.mesh.DeepCopy(fresh)
 
 
+class Surface:
+    """A shape of the scene, made so that one sees what happens behind it."""
+
+    def __init__(self, scene, index, low, high):
+        vertices, faces = scene.shapes[index].triangles()
+        self.vertices, self.faces = np.asarray(vertices, float), np.asarray(faces, int)
+        self.wall = _is_wall(self.vertices, low, high)
+        self.lamp = scene.is_light(index)
+        self.colour = LAMP if self.lamp else tuple(DIMMED * srgb(scene.display_colour(index)))
+        self.opacity = 1.0 if self.wall else 0.3 if scene.is_see_through(index) else 0.55
+        if self.wall:
+            self.faces = self._turned((low + high) / 2)
+        self.one_sided = self.wall or self._turn_outwards()
+        if not self.wall:
+            self.faces = self.faces[~_pressed(self.vertices[self.faces], low, high)]
+
+    def layer(self, renderer):
+        """The actor: walls and solids show only the side they are made to be seen from."""
+        layer = Layer(renderer, self.colour, self.opacity, lit=not self.lamp, culled=self.one_sided)
+        layer.show(self.vertices, self.faces)
+        return layer
+
+    def _turned(self, point):
+        """The faces, each turned towards a point."""
+        away = self._lean(self.faces, point) < 0
+        return np.where(away[:, None], self.faces[:, ::-1], self.faces)
+
+    def _lean(self, faces, point):
+        a, b, c = (self.vertices[faces[:, k]] for k in range(3))
+        return np.einsum("ij,ij->i", np.cross(b - a, c - a), point - a)
+
+    def _turn_outwards(self):
+        """Turn the faces of a closed convex solid outwards; False, and nothing done, where it is none."""
+        if np.ptp(self.vertices, axis=0).min() == 0 or len(self.faces) > FEW:
+            return bool(np.all(self._lean(self.faces, self.vertices.mean(axis=0)) < 0))
+        faces = self._turned(self.vertices.mean(axis=0))[:, ::-1]
+        slack = 1e-6 * np.ptp(self.vertices) ** 3
+        if max(self._lean(faces, v).max() for v in self.vertices) > slack:
+            return False
+        self.faces = faces
+        return True
+
+
 class Stage:
     """Everything in the 3D view. window goes to the browser; labels are words at places, drawn there in HTML."""
 
@@ -80,7 +126,7 @@ class Stage:
         self.window.AddRenderer(self.renderer)
         self._surfaces, self.layers = [], {}
         for name, colour in COLOURS.items():
-            self.layers[name] = Layer(self.renderer, colour, opacity=0.5 if name == "others" else 1.0)
+            self.layers[name] = Layer(self.renderer, colour)
         self.labels = []
         self._light()
         self.furnish(scene)
@@ -96,24 +142,12 @@ class Stage:
             self.renderer.RemoveActor(layer.actor)
         low, high = (np.asarray(b, float) for b in scene.bounds())
         self.size = float(np.linalg.norm(high - low))
-        self._surfaces = [self._surface(scene, index, low, high) for index in range(len(scene.shapes))]
+        shapes = [Surface(scene, index, low, high) for index in range(len(scene.shapes))]
+        shapes.sort(key=lambda s: not s.wall)  # what is seen through comes last, over all the rest
+        self._surfaces = [s.layer(self.renderer) for s in shapes]
         self.strokes = Strokes(self.size)
         self.camera = viewpoint(scene, low, high)
         self._aim()
-
-    def _surface(self, scene, index, low, high):
-        vertices, faces = scene.shapes[index].triangles()
-        vertices, faces = np.asarray(vertices, float), np.asarray(faces, int)
-        wall = _is_wall(vertices, low, high)
-        if wall:
-            faces = _facing(vertices, faces, (low + high) / 2)
-        else:
-            faces = faces[~_pressed(vertices[faces], low, high)]
-        colour = LAMP if scene.is_light(index) else tuple(DIMMED * srgb(scene.display_colour(index)))
-        opacity = 1.0 if wall else 0.25 if scene.is_see_through(index) else 0.55
-        layer = Layer(self.renderer, colour, opacity, lit=not scene.is_light(index), culled=wall)
-        layer.show(vertices, faces)
-        return layer
 
     def _aim(self):
         eye = self.renderer.GetActiveCamera()
@@ -153,7 +187,7 @@ def viewpoint(scene, low, high):
 
 def _is_wall(vertices, low, high):
     """Whether a shape encloses the scene or lies flat on its bounds: then it must not hide what is inside."""
-    slack = 1e-3 * np.linalg.norm(high - low)
+    slack = 0.01 * np.linalg.norm(high - low)
     mine_low, mine_high = vertices.min(axis=0), vertices.max(axis=0)
     flat = (mine_high - mine_low < slack) & ((mine_low - low < slack) | (high - mine_high < slack))
     return bool(flat.any() or np.all(mine_high - mine_low > 0.9 * (high - low)))
@@ -161,12 +195,5 @@ def _is_wall(vertices, low, high):
 
 def _pressed(triangles, low, high):
     """Which triangles (F, 3, 3) lie flat on the scene's bounds: there they would fight with a wall."""
-    slack = 1e-3 * np.linalg.norm(high - low)
+    slack = 0.01 * np.linalg.norm(high - low)
     return ((triangles - low < slack).all(axis=1) | (high - triangles < slack).all(axis=1)).any(axis=1)
-
-
-def _facing(vertices, faces, centre):
-    """The same triangles, each turned towards a point."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    away = np.einsum("ij,ij->i", np.cross(b - a, c - a), centre - a) < 0
-    return np.where(away[:, None], faces[:, ::-1], faces)

@@ -73,8 +73,8 @@ WORDS = {
         "samples.note": "{n} paths, {dead} carry nothing",
         "progress": "rendering: {spp} spp, {percent} %",
         # the ledger
-        "ledger.hit": "emission met, depth {depth}",
-        "ledger.light": "light sample, depth {depth}",
+        "ledger.hit": "emission, depth {depth}",
+        "ledger.light": "light, depth {depth}",
         "ledger.escape": "environment, depth {depth}",
         "ledger.mean": "pixel = mean of {n} samples",
         "ledger.path": "Path {path} = sum of its contributions",

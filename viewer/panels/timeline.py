@@ -11,7 +11,7 @@ TEMPLATE = """
       :aria-label="b === 'play' && playing ? w.pause : w[b]" :title="b === 'play' && playing ? w.pause : w[b]"
       @click="trigger(b === 'play' ? 'play' : 'go', [b])"><castray-icon :name="b === 'play' && playing ? 'pause' : b"/></button>
   </div>
-  <ol class="track" data-testid="timeline">
+  <ol class="track" :class="{tight: timeline.marks.length > 20}" data-testid="timeline">
     <li v-for="mark in timeline.marks" :key="mark.step" :class="{vertex: mark.vertex}">
       <button class="mark" :class="[mark.kind, {now: mark.step === event_index, gives: mark.gives, past: mark.step < event_index}]"
         :data-testid="'mark-' + mark.step" :title="mark.title" :aria-label="mark.title"

@@ -186,9 +186,15 @@
         const now = JSON.stringify([eye, props.labels, width, height]);
         if (now === last) return;
         last = now;
+        const taken = [];
         props.labels.forEach((label, k) => {
-          const [x, y] = project(eye, label.at, width, height), element = box.value.children[k];
-          if (element) element.style.transform = `translate(${clamp(x, 14, width - 14)}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;
+          const element = box.value.children[k];
+          if (!element) return;
+          let [x, y] = project(eye, label.at, width, height);
+          x = clamp(x, 14, width - 14);
+          while (taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22)) y += 4;
+          taken.push([x, y, element.offsetWidth]);
+          element.style.transform = `translate(${x}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;
         });
       }
       onMounted(place);
@@ -218,9 +224,9 @@
         else if (KEYS[event.key]) call = ["go", [KEYS[event.key]]];
         else if (event.key === " " && !onButton) call = ["play", []];
         else if (event.key === "?") trame.state.set("tab", "help");
-        if (call) { event.preventDefault(); event.stopImmediatePropagation(); trame.trigger(...call); }
+        if (call) { event.preventDefault(); event.stopPropagation(); trame.trigger(...call); }
       }
-      const hush = (event) => { if (!typing(event)) event.stopImmediatePropagation(); }; // vtk.js binds w, s and r
+      const hush = (event) => { if (!typing(event)) event.stopPropagation(); }; // vtk.js binds w, s and r
       const follow = () => { const hash = window.location.hash.slice(1); if (mine() && hash && hash !== props.link) trame.trigger("open", [hash]); };
       const write = () => { if (mine()) window.history.replaceState(null, "", "#" + props.link); };
       onMounted(async () => {

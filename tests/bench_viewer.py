@@ -1,0 +1,125 @@
+"""How long a pick and a step take in the browser: from the mouse or key going down to the new picture drawn.
+
+Prints medians and the slowest of 20 each. `python tests/bench_viewer.py [SCENE] [castray view options]`
+"""
+
+import importlib.util
+import statistics
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+ROUNDS = 20
+LIMITS = {"pick": 250, "step": 100}
+
+# In the page: the time from the last input until `changed(before)` holds and the 3D canvas shows other pixels.
+WATCH = """
+() => {
+  const small = Object.assign(document.createElement("canvas"), {width: 160, height: 120});
+  const g = small.getContext("2d", {willReadFrequently: true});
+  window.drawn = () => {
+    g.clearRect(0, 0, 160, 120);
+    g.drawImage(document.querySelector(".stage canvas"), 0, 0, 160, 120);
+    const d = g.getImageData(0, 0, 160, 120).data;
+    let sum = 0;
+    for (let i = 0; i < d.length; i++) sum = (sum * 31 + d[i]) | 0;
+    return sum;
+  };
+  window.where = () => {
+    const table = document.querySelector("[data-testid=event-table]");
+    const now = table.querySelector("[data-now=true]");
+    return [table.dataset.pixel, table.dataset.path, now && now.dataset.testid].join(" ");
+  };
+  const begin = () => { window.began = performance.now(); };
+  for (const kind of ["pointerdown", "keydown"]) window.addEventListener(kind, begin, true);
+}
+"""
+ARM = """
+() => {
+  const picture = window.drawn(), place = window.where();
+  window.took = new Promise((resolve) => {
+    const look = () => {
+      if (window.where() !== place && window.drawn() !== picture) resolve(performance.now() - window.began);
+      else requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+}
+"""
+
+
+def fixtures():
+    """The module that starts viewers for the tests."""
+    spec = importlib.util.spec_from_file_location("viewer_conftest", HERE / "viewer" / "conftest.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def timed(page, act):
+    """Milliseconds from an input to what it changed, drawn."""
+    page.evaluate(ARM)
+    act()
+    took = page.evaluate("() => window.took")
+    page.wait_for_timeout(60)
+    return took
+
+
+def picks(page):
+    """One time per pick, at pixels spread over the picture."""
+    box = page.locator("[data-testid=picture]").bounding_box()
+    for k in range(ROUNDS):
+        x = box["x"] + box["width"] * (0.15 + 0.7 * (k * 7 % ROUNDS) / ROUNDS)
+        y = box["y"] + box["height"] * (0.25 + 0.6 * (k * 3 % ROUNDS) / ROUNDS)
+        page.mouse.move(x, y)
+        yield timed(page, lambda x=x, y=y: page.mouse.click(x, y))
+
+
+def steps(page):
+    """One time per step along the path, and back."""
+    page.keyboard.press("Home")
+    page.wait_for_timeout(300)
+    last = int(page.locator("[data-testid=event-table] tbody tr").count()) - 1
+    forward, at = True, 0
+    for _ in range(ROUNDS):
+        forward = at == 0 or (forward and at < last)
+        at += 1 if forward else -1
+        yield timed(page, lambda: page.keyboard.press("ArrowRight" if forward else "ArrowLeft"))
+
+
+def measure(chromium, words):
+    """{"pick": [...], "step": [...]} in milliseconds."""
+    from playwright.sync_api import sync_playwright
+
+    tools = fixtures()
+    server = tools.Server(*words)
+    try:
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=chromium, args=list(tools.SWITCHES))
+            page = browser.new_page(viewport={"width": 1500, "height": 900})
+            page.goto(server.address)
+            page.wait_for_selector("html[data-ready]")
+            page.wait_for_selector("[data-testid=progress]", state="detached", timeout=120_000)
+            page.evaluate(WATCH)
+            page.wait_for_timeout(500)
+            times = {"pick": list(picks(page)), "step": list(steps(page))}
+            browser.close()
+    finally:
+        server.stop()
+    return times
+
+
+def main():
+    """Print the figures; 1 if a median is over its limit."""
+    import shutil
+
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    times = measure(chromium, sys.argv[1:] or ["cornell_unit"])
+    for name, values in times.items():
+        print(f"{name}: median {statistics.median(values):.0f} ms, slowest {max(values):.0f} ms, limit {LIMITS[name]} ms")
+    return int(any(statistics.median(v) > LIMITS[k] for k, v in times.items()))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
