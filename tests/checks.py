@@ -15,6 +15,7 @@ from tracer.integrator.wave import Wave
 
 SIGMAS = 4.0  # standard errors: a right tracer is further off once in 16 000 comparisons
 ROUNDING = {32: 1e-5, 64: 1e-12}  # relative, on top
+TAIL = 5.0
 
 # Region means of the homework's Cornell box, linear RGB, and the regions as fractions of the picture
 # (x0, y0, x1, y1), from the homework's own framework at 784 x 784 with its mistakes mended.
@@ -54,9 +55,13 @@ def furnace(settings, steps=RIGHT, scene="furnace", Le=1.0, rho=0.5):
     truth = (
         Le * (1.0 - rho**settings.max_depth) / (1.0 - rho) if settings.max_depth >= 0 else Le / (1.0 - rho)
     )
-    scene = tracer.load(scene) if isinstance(scene, str) else scene
-    mean, error = mean_and_error(samples(scene, settings, steps))
-    return off(mean, truth, error, ROUNDING[settings.precision] * truth)
+    cubic = scene == "furnace"
+    radiance = samples(tracer.load(scene) if cubic else scene, settings, steps)
+    mean, error = mean_and_error(radiance)
+    slack = ROUNDING[settings.precision] * truth
+    if cubic and (settings.integrator == "direct" or settings.strategy == "light"):
+        slack += TAIL * radiance.max() / radiance[0].size  # a variance without bound, see test_furnace
+    return off(mean, truth, error, slack)
 
 
 def off(a, b, error, slack=0.0):

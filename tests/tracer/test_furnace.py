@@ -4,11 +4,18 @@ If all walls send Le and reflect the share rho, the radiance L is the same every
 that has been reflected up to k - 1 times sums to Le (1 - rho^k) / (1 - rho). Mistakes of energy show here
 and nowhere so clearly. Each comparison allows 4 standard errors, which a right tracer exceeds once in 16 000,
 and the rounding of the precision. Of all comparisons here together one set of runs in 150 fails by chance.
+
+Light samples alone have no finite variance in a cubic room: where walls meet, cos cos' / r^2 has no bound,
+and the share of samples above t falls only as t^-3/2. What a mean of N samples with the largest M still
+misses is then about 3 M / N; 5 M / N is allowed on top. In the round room there is no such tail.
 """
+
+from functools import partial
 
 import checks
 import numpy as np
 import pytest
+from cases import INTEGRATORS
 from stats import mean_and_error
 
 import tracer
@@ -16,7 +23,6 @@ from lessons import zoo
 from tracer import Settings
 
 DEPTHS = (1, 2, 3, 8, 50)
-INTEGRATORS = ("walk", "direct", "path")
 
 pytestmark = pytest.mark.statistical
 
@@ -101,22 +107,22 @@ def test_without_roulette_bounces_alone_give_the_furnace_exactly(suite_seed, int
     assert np.abs(radiance / truth - 1.0).max() <= checks.ROUNDING[precision]
 
 
-def slightly_dark(beta, sample, cos):
-    """The smallest fault that the test claims to see: 0.2 % of the throughput lost at every bounce."""
-    return np.float32(0.998) * zoo.RIGHT.throughput(beta, sample, cos)
+def darker(share, beta, sample, cos):
+    """A little of the throughput is lost at every bounce."""
+    return beta.dtype.type(1.0 - share) * zoo.RIGHT.throughput(beta, sample, cos)
 
 
-@pytest.mark.parametrize("integrator", ["walk", "path"])
-def test_a_loss_of_two_thousandths_a_bounce_is_caught(suite_seed, integrator):
-    wrong = zoo.changed(throughput=slightly_dark)
+@pytest.mark.parametrize(("integrator", "share"), [("walk", 0.005), ("path", 0.01), ("direct", 0.1)])
+def test_a_small_loss_at_every_bounce_is_caught(suite_seed, integrator, share):
+    """The broken twin: the smallest fault that the furnace claims to see with each integrator."""
     settings = small(suite_seed, 256, integrator=integrator, max_depth=8)
     assert checks.furnace(settings) <= 1.0
-    assert checks.furnace(settings, wrong) > 1.0
+    assert checks.furnace(settings, zoo.changed(throughput=partial(darker, share))) > 1.0
 
 
 def test_the_standard_error_is_small_enough_to_mean_something(suite_seed):
-    """4 standard errors at depth 8 are below 1.5 % of the radiance for every integrator."""
-    for integrator in INTEGRATORS:
+    """4 standard errors at depth 8 are below 5 % of it for light samples alone, below 1 % otherwise."""
+    for integrator, bar in (("walk", 0.01), ("direct", 0.05), ("path", 0.01)):
         settings = small(suite_seed, integrator=integrator, max_depth=8)
         mean, error = mean_and_error(checks.samples(tracer.load("furnace"), settings))
-        assert (4.0 * error < 0.015 * mean).all(), (integrator, error / mean)
+        assert (4.0 * error < bar * mean).all(), (integrator, error / mean)

@@ -4,29 +4,22 @@ The adding up is done here once more, from nothing but the JSON that `inspect` g
 """
 
 import json
-from functools import cache
 
 import numpy as np
 import pytest
+from cases import INTEGRATORS, SCENES, loaded
 
 import tracer
 from lessons import zoo
 from tracer import Settings
 from tracer.integrator.steps import light_term
 
-SCENES = ("cornell", "cornell_unit", "cornell_glass", "furnace")
-INTEGRATORS = ("walk", "direct", "path")
 SIDE = 18  # pixels; a square picture of these has more than 200
 PIXELS = 200
 
 
-@cache
-def loaded(name):
-    return tracer.load(name)
-
-
 def sample_from(entry, dtype):
-    """A sample's radiance from its JSON: contributions added in the order of events, in the path's precision."""
+    """A sample's radiance from its JSON: contributions added in order, in the precision given."""
     total = np.zeros(3, dtype)
     for event in entry["events"]:
         if "contribution" in event:
