@@ -2,7 +2,7 @@
 # make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.  make clean.
 
 PYTHON ?= python3
-BIN := .venv/bin
+RUN := .venv/bin/python -m
 
 # Old pip takes the first for the build too, new pip the second.
 export PIP_CONSTRAINT := constraints.txt
@@ -13,27 +13,27 @@ export PYTHON
 .PHONY: run test quick check format seeds clean system
 
 run: .venv/.run
-	$(BIN)/castray view cornell_unit
+	$(RUN) viewer.cli view cornell_unit
 
 test: .venv/.dev system
 	@# Those that hold a clock run by themselves (5: there are none).
-	$(BIN)/python -m pytest -m timed || [ $$? -eq 5 ]
-	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not timed"
+	$(RUN) pytest -m timed || [ $$? -eq 5 ]
+	$(RUN) pytest -n 2 --dist loadgroup -m "not timed"
 
 quick: .venv/.dev
-	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not slow and not browser and not timed"
+	$(RUN) pytest -n 2 --dist loadgroup -m "not slow and not browser and not timed"
 
 check: .venv/.dev
-	$(BIN)/ruff format --check .
-	$(BIN)/ruff check .
-	$(BIN)/mypy
+	$(RUN) ruff format --check .
+	$(RUN) ruff check .
+	$(RUN) mypy
 
 format: .venv/.dev
-	$(BIN)/ruff format .
-	$(BIN)/ruff check --fix .
+	$(RUN) ruff format .
+	$(RUN) ruff check --fix .
 
 seeds: .venv/.dev
-	$(BIN)/python tests/seeds.py
+	.venv/bin/python tests/seeds.py
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -49,9 +49,9 @@ system:
 	$(PYTHON) -m venv --clear .venv
 
 .venv/.run: pyproject.toml constraints.txt | .venv/bin/python
-	$(BIN)/python -m pip install -q -e .
+	$(RUN) pip install -q -e .
 	@touch $@
 
 .venv/.dev: pyproject.toml constraints.txt | .venv/bin/python
-	$(BIN)/python -m pip install -q -e '.[dev]'
+	$(RUN) pip install -q -e '.[dev]'
 	@touch $@ .venv/.run
