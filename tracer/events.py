@@ -8,6 +8,7 @@ evaluate it.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -60,12 +61,14 @@ class Kind:
     meaning: str
     fields: tuple
 
-    def __post_init__(self):
-        object.__setattr__(self, "_carried", frozenset(f.name for f in self.fields if f.carried))
+    @cached_property
+    def carried(self):
+        """Names of the fields that the loop yields."""
+        return frozenset(f.name for f in self.fields if f.carried)
 
     def __call__(self, lane, depth, **columns):
-        if columns.keys() != self._carried:
-            odd = ", ".join(sorted(columns.keys() ^ self._carried))
+        if columns.keys() != self.carried:
+            odd = ", ".join(sorted(columns.keys() ^ self.carried))
             raise TypeError(f"{self.name} event: missing or unknown: {odd}")
         return Event(self, lane, depth, columns)
 

@@ -23,8 +23,9 @@ def kind_of(table, place):
     for family, known in (("shape", SHAPES), ("bsdf", BSDFS), ("sensor", SENSORS)):
         if kind in known:
             return family
-    known = (*SHAPES, *BSDFS, *SENSORS)
-    raise TracerError(f"{place}.type: {kind!r} is not supported; {near(kind, known)}known: {listed(known)}")
+    everything = (*SHAPES, *BSDFS, *SENSORS)
+    hint = near(kind, everything)
+    raise TracerError(f"{place}.type: {kind!r} is not supported; {hint}known: {listed(everything)}")
 
 
 def bsdf(description, place):
