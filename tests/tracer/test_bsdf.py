@@ -1,0 +1,225 @@
+"""Every BSDF keeps the same promises; adding one to bsdf.ALL tests it.
+
+Sampling is tested by chi-square over a grid of the sphere, at a significance of 1 % shared out by Sidak's
+formula among all materials, directions and precisions.
+"""
+
+import numpy as np
+import pytest
+from stats import chi_square, sidak
+
+from tracer.bsdf import ALL, Conductor, Dielectric, Diffuse
+from tracer.bsdf.table import BsdfTable
+from tracer.events import LOBES
+
+# The loops keep NumPy's warnings quiet too: infinities and NaN are looked for where they matter.
+pytestmark = pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
+
+DTYPES = (np.float32, np.float64)
+
+
+def column(*values):
+    return np.array(values, np.float64).reshape(3, 1)
+
+
+EXAMPLES = {
+    Diffuse: [
+        Diffuse(column(0.9, 0.5, 0.1)),
+        Diffuse(column(0.9, 0.5, 0.1), hemisphere="uniform"),
+    ],
+    Conductor: [
+        Conductor(column(0.2, 0.92, 1.1), column(3.9, 2.45, 2.14), column(1, 1, 1)),
+        Conductor(column(1, 1, 1), column(np.inf, np.inf, np.inf), column(1, 0.8, 0.5)),
+    ],
+    Dielectric: [
+        Dielectric(np.array([1.5]), column(1, 1, 1), column(1, 1, 1)),
+        Dielectric(np.array([1 / 1.33]), column(1, 0.9, 0.8), column(0.7, 1, 1)),
+        Dielectric(np.array([1.0]), column(1, 1, 1), column(1, 1, 1)),
+    ],
+}
+EVERY = [material for family in EXAMPLES.values() for material in family]
+SMOOTH = [material for material in EVERY if not material.delta]
+DIRAC = [material for material in EVERY if material.delta]
+TILTS = (0.0, 0.7, 1.2, 1.55)  # angles of wo from the normal
+
+COLUMNS, ROWS = 16, 10  # of the grid: longitude, and cosine over the whole sphere
+N = 60_000
+CHI_TESTS = len(SMOOTH) * len(TILTS) * len(DTYPES)
+
+
+def over(materials):
+    """A test of each of these materials."""
+    names = [f"{type(m).__name__}{k}" for k, m in enumerate(materials)]
+    return pytest.mark.parametrize("material", materials, ids=names)
+
+
+every, smooth, dirac = over(EVERY), over(SMOOTH), over(DIRAC)
+both = pytest.mark.parametrize("dtype", DTYPES)
+
+
+def tilted(tilt, n, dtype=np.float64):
+    """n copies of the direction at an angle from the normal."""
+    w = np.array([np.sin(tilt) * 0.6, np.sin(tilt) * -0.8, np.cos(tilt)])
+    return np.repeat((w / np.linalg.norm(w)).astype(dtype)[:, None], n, axis=1)
+
+
+def numbers(seed, n, dtype):
+    """(3, n) uniform numbers below 1 in the precision asked for."""
+    bits = 24 if dtype == np.float32 else 32
+    return (np.random.default_rng(seed).integers(0, 2**bits, (3, n)) * 2.0**-bits).astype(dtype)
+
+
+def directions(seed, n, dtype=np.float64):
+    """(3, n) directions all over the sphere."""
+    w = np.random.default_rng(seed).normal(size=(3, n))
+    return (w / np.linalg.norm(w, axis=0)).astype(dtype)
+
+
+def grid_of(wi):
+    """How many directions fall into each cell."""
+    longitude = np.arctan2(wi[1], wi[0]) / (2 * np.pi) % 1.0
+    return np.histogram2d(longitude, 0.5 * wi[2] + 0.5, (COLUMNS, ROWS), ((0, 1), (0, 1)))[0]
+
+
+def cell_shares(pdf):
+    """What a density puts into each cell, by the midpoint rule on 12 x 40 points a cell."""
+    fine_phi, fine_z = 12 * COLUMNS, 40 * ROWS
+    phi = (np.arange(fine_phi) + 0.5) * (2 * np.pi / fine_phi)
+    z = (np.arange(fine_z) + 0.5) * (2 / fine_z) - 1
+    phi, z = (grid.ravel() for grid in np.meshgrid(phi, z, indexing="ij"))
+    r = np.sqrt(1 - z * z)
+    density = pdf(np.stack((r * np.cos(phi), r * np.sin(phi), z)))
+    share = density * (2 * np.pi / fine_phi) * (2 / fine_z)
+    return share.reshape(COLUMNS, 12, ROWS, 40).sum(axis=(1, 3))
+
+
+def follows(material, pdf, wo, u):
+    """p-value of sampled directions against a density."""
+    sample = material.sample(wo, u)
+    n = wo.shape[1]
+    shares = cell_shares(lambda wi: pdf(np.repeat(wo[:, :1], wi.shape[1], axis=1), wi))
+    assert abs(shares.sum() - 1.0) < 1e-3, "the density does not integrate to 1"
+    return chi_square(grid_of(sample.wi.astype(np.float64)), n * shares / shares.sum())
+
+
+def test_every_bsdf_has_an_example_here():
+    assert set(EXAMPLES) == set(ALL)
+
+
+@pytest.mark.statistical
+@both
+@pytest.mark.parametrize("tilt", TILTS)
+@smooth
+def test_sample_follows_pdf(suite_seed, material, tilt, dtype):
+    wo, u = tilted(tilt, N, dtype), numbers(suite_seed, N, dtype)
+    material = material.astype(dtype)
+    assert follows(material, material.pdf, wo, u) > sidak(CHI_TESTS)
+
+
+@pytest.mark.statistical
+def test_a_wrong_density_is_caught(suite_seed):
+    """The broken twin: cosine-weighted directions against a density that is 5 % uniform."""
+    material = SMOOTH[0]
+    wo, u = tilted(0.7, N), numbers(suite_seed, N, np.float64)
+
+    def flatter(wo, wi):
+        return 0.95 * material.pdf(wo, wi) + 0.05 * (wi[2] > 0) / (2 * np.pi)
+
+    assert follows(material, flatter, wo, u) < sidak(CHI_TESTS)
+
+
+@both
+@smooth
+def test_sample_reports_its_own_eval_and_pdf(suite_seed, material, dtype):
+    wo = np.concatenate([tilted(t, 1000, dtype) for t in TILTS], axis=1)
+    material = material.astype(dtype)
+    sample = material.sample(wo, numbers(suite_seed, wo.shape[1], dtype))
+    assert sample.f.tobytes() == np.ascontiguousarray(material.eval(wo, sample.wi)).tobytes()
+    assert sample.pdf.tobytes() == material.pdf(wo, sample.wi).tobytes()
+    assert not sample.delta.any()
+    assert np.abs(np.sqrt((sample.wi**2).sum(axis=0)) - 1).max() < 4 * np.finfo(dtype).eps
+
+
+@dirac
+def test_a_dirac_lobe_has_no_value_elsewhere(suite_seed, material):
+    wo, wi = directions(suite_seed, 1000), directions(suite_seed + 1, 1000)
+    assert not material.eval(wo, wi).any()
+    assert not material.pdf(wo, wi).any()
+    assert material.sample(wo, numbers(suite_seed, 1000, np.float64)).delta.all()
+
+
+@smooth
+def test_reciprocity(suite_seed, material):
+    wo, wi = directions(suite_seed, 1000), directions(suite_seed + 1, 1000)
+    assert np.array_equal(material.eval(wo, wi), material.eval(wi, wo))
+
+
+@both
+@every
+def test_everything_is_of_one_precision_finite_and_not_negative(suite_seed, material, dtype):
+    wo, wi = directions(suite_seed, 4000, dtype), directions(suite_seed + 1, 4000, dtype)
+    material = material.astype(dtype)
+    sample = material.sample(wo, numbers(suite_seed, 4000, dtype))
+    for values in (material.eval(wo, wi), material.pdf(wo, wi), sample.f, sample.pdf):
+        assert values.dtype == dtype
+        assert np.isfinite(values).all() and (values >= 0).all()
+    assert sample.wi.dtype == dtype
+    assert ((sample.lobe >= 0) & (sample.lobe < len(LOBES))).all()
+
+
+@every
+def test_nothing_passes_an_opaque_surface(suite_seed, material):
+    wo, wi = directions(suite_seed, 4000), directions(suite_seed + 1, 4000)
+    if not material.one_sided:
+        return
+    below = (wo[2] <= 0) | (wi[2] <= 0)
+    assert not material.eval(wo, wi)[:, below].any()
+    assert not material.pdf(wo, wi)[below].any()
+    sample = material.sample(wo, numbers(suite_seed, 4000, np.float64))
+    carries = (sample.pdf > 0) & (sample.f > 0).any(axis=0)
+    assert (sample.wi[2][carries] > 0).all() and (wo[2][carries] > 0).all()
+
+
+def energy(material, wo, u):
+    """Share of the light that goes on, per sample: f cos / pdf, without the change of radiance in glass."""
+    sample = material.sample(wo, u)
+    weight = np.where(sample.delta, 1.0, np.abs(sample.wi[2])) / np.where(sample.pdf > 0, sample.pdf, np.inf)
+    compression = np.ones(wo.shape[1])
+    if hasattr(material, "relative_eta"):
+        passed = sample.wi[2] * wo[2] < 0
+        compression = np.where(passed, material.relative_eta(wo[2]) ** 2, 1.0)
+    return sample.f * weight * compression
+
+
+@pytest.mark.parametrize("tilt", [*TILTS, np.pi - 0.7, np.pi - 1.2])
+@every
+def test_no_energy_is_created(suite_seed, material, tilt):
+    """Importance sampling leaves hardly any variance, so each weight itself stays below 1, or their mean."""
+    weights = energy(material, tilted(tilt, 20_000), numbers(suite_seed, 20_000, np.float64))
+    mean, error = weights.mean(axis=1), weights.std(axis=1) / np.sqrt(20_000)
+    assert (mean <= 1.0 + 4.0 * error + 1e-12).all()
+
+
+def test_an_albedo_a_percent_above_one_is_caught(suite_seed):
+    """The broken twin."""
+    weights = energy(Diffuse(column(1.01, 1, 1)), tilted(0.7, 1000), numbers(suite_seed, 1000, np.float64))
+    assert weights.mean(axis=1)[0] > 1.0 + 1e-12
+
+
+@both
+def test_a_table_answers_each_lane_by_its_own_material(suite_seed, dtype):
+    n = 500
+    which = np.random.default_rng(suite_seed).integers(0, len(EVERY), n)
+    table = BsdfTable(EVERY, dtype, "cosine")
+    wo, wi = directions(suite_seed, n, dtype), directions(suite_seed + 1, n, dtype)
+    u = numbers(suite_seed, n, dtype)
+    f, pdf, sample = table.eval(which, wo, wi), table.pdf(which, wo, wi), table.sample(which, wo, u)
+    for number, material in enumerate(EVERY):
+        lanes = np.flatnonzero(which == number)
+        if isinstance(material, Diffuse):
+            material = Diffuse(material.reflectance, "cosine")
+        own = material.astype(dtype)
+        assert np.array_equal(f[:, lanes], own.eval(wo[:, lanes], wi[:, lanes]))
+        assert np.array_equal(pdf[lanes], own.pdf(wo[:, lanes], wi[:, lanes]))
+        for got, want in zip(sample, own.sample(wo[:, lanes], u[:, lanes]), strict=True):
+            assert np.array_equal(got[..., lanes], want)
