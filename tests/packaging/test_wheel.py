@@ -97,6 +97,10 @@ def test_the_command_works_in_a_folder_that_has_a_tracer_and_scenes_of_its_own(s
     assert np.array_equal(picture, np.load(tmp_path / "elsewhere.npy"))
 
 
+def test_the_command_says_its_version(wheel, scripts, desk):
+    assert castray(scripts, desk, "--version").strip() == wheel.name.split("-")[1]
+
+
 def test_several_processes_find_the_installed_tracer_too(scripts, desk):
     for workers in ("1", "2"):
         castray(scripts, desk, "render", "cornell_unit", *SMALL, "--workers", workers, "-o", f"{workers}.npy")
