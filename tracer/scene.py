@@ -151,6 +151,9 @@ class Scene:
                 lanes = np.flatnonzero(nearer)
                 primitive[lanes] = kernel.first + kernel.face(hint, rays, t_k, lanes)
             t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
+        if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
+            none = ~np.isfinite(rays.o + rays.d).all(axis=0)
+            t[none], primitive[none] = np.inf, -1
         return t, primitive
 
     def hit(self, o, d, t, primitive):
