@@ -6,10 +6,14 @@ Each gives how far off the steps are, in units of what is allowed: up to 1 is ri
 from collections import deque
 
 import numpy as np
-from stats import mean_and_error
+from cases import INTEGRATORS, loaded
+from stats import chi_square, mean_and_error, sidak, uniform
 
 import tracer
+from tracer import Settings
 from tracer.engine import waves
+from tracer.events import BOUNCE, HIT, LIGHT
+from tracer.frame import Frame, length
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 
@@ -118,3 +122,99 @@ def homework(name, settings, steps=RIGHT, pixels=None):
     mean, error = mean_and_error(samples(scene, settings, steps, numbers))
     truth = np.array(HOMEWORK[name][1])
     return off(mean, truth, error, 0.01 * truth), mean, error
+
+
+def some_events(scene, settings, steps, *kinds):
+    """The events of some kinds, and for each the columns of the last HIT of its paths."""
+    settings = settings.at_size_of(loaded(scene))
+    ready = loaded(scene).at(settings)
+    pixel, sample = np.divmod(np.arange(settings.width * settings.height * settings.spp), settings.spp)
+    wave = Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
+    vertex = {name: np.zeros((3, pixel.size), settings.dtype) for name in ("p", "n")}
+    for event in waves.events(ready, settings, wave):
+        if event.kind is HIT:
+            for name, column in vertex.items():
+                column[:, event.lane] = event.columns[name]
+        if event.kind in kinds:
+            yield event.columns, {name: column[:, event.lane] for name, column in vertex.items()}
+
+
+def bounces(seed, steps=RIGHT):
+    """Directions of diffuse bounces, carried back to the unit square by cos/pi, and the density they name."""
+    settings = Settings(width=32, height=32, spp=8, integrator="walk", max_depth=4, seed=seed)
+    squares, wrong = [], 0.0
+    for bounce, hit in some_events("cornell_unit", settings, steps, BOUNCE):
+        x, y, z = Frame.around(hit["n"]).to_local(bounce["wi"]).astype(float)
+        squares.append(np.stack((np.arctan2(y, x) / (2 * np.pi) % 1.0, 1.0 - z * z)))
+        wrong = max(wrong, np.abs(bounce["pdf"] * np.pi - z).max(initial=0.0))
+    if not squares:
+        return np.inf
+    p = uniform(np.clip(np.concatenate(squares, axis=1), 0, 1), 16)
+    return max(sidak(1) / max(p, 1e-300), wrong / ROUNDING[32])
+
+
+def lamp_points(seed, steps=RIGHT):
+    """Points on the lamp of the unit box fill it evenly."""
+    settings = Settings(width=32, height=32, spp=8, integrator="direct", max_depth=2, seed=seed)
+    q = np.concatenate([e["q"] for e, _ in some_events("cornell_unit", settings, steps, LIGHT)], axis=1)
+    place = np.stack(((q[0] + 0.23) / 0.46, (q[2] - 0.01 + 0.19) / 0.38)).astype(float)
+    grid = np.histogram2d(*np.clip(place, 0, 1), bins=16, range=((0, 1), (0, 1)))[0]
+    return sidak(1) / max(chi_square(grid, np.full(grid.shape, grid.sum() / grid.size)), 1e-300)
+
+
+def shadows(seed, steps=RIGHT):
+    """What light samples see against plain rays in float64 that stop well before either end.
+
+    One answer in a thousand may differ: the ends that are cut off may have touched something.
+    """
+    settings = Settings(width=32, height=32, spp=8, integrator="direct", max_depth=2, seed=seed)
+    scene, gap, differ, asked = loaded("cornell_unit").at(Settings(precision=64)), 1e-3, 0, 0
+    for light, hit in some_events("cornell_unit", settings, steps, LIGHT):
+        open_to = (light["f"] > 0).any(axis=0) & (light["Le"] > 0).any(axis=0)
+        p, q = hit["p"][:, open_to].astype(float), light["q"][:, open_to].astype(float)
+        r = length(q - p)
+        wi = (q - p) / r
+        with np.errstate(all="ignore"):
+            t, _ = scene.intersect(p + gap * wi, wi, np.full(r.size, -1))
+        differ += np.count_nonzero((t > r - 2 * gap) != light["visible"][open_to])
+        asked += r.size
+    return differ / (1e-3 * asked)
+
+
+def spread(seed, steps=RIGHT):
+    """Variance of single samples in the unit box against what direct has there, 0.0217 within its pixels.
+
+    A quarter more is allowed: an estimator may be right on average and still useless.
+    """
+    settings = Settings(width=32, height=32, spp=32, integrator="direct", seed=seed)
+    below = samples(loaded("cornell_unit"), settings, steps, np.arange(8 * 32, 32 * 32))
+    return below[0].var(axis=1).mean() / (1.25 * 0.0217)
+
+
+def energy(seed, steps=RIGHT):
+    """The furnace with every loop at a few depths."""
+    return max(
+        furnace(Settings(width=16, height=16, spp=64, max_depth=k, integrator=name, seed=seed), steps)
+        for name in INTEGRATORS
+        for k in (1, 2, 8)
+    )
+
+
+def loops(seed, steps=RIGHT):
+    """The three loops in the unit box, walk coarsely and the others block by block."""
+    side, found = 32, {}
+    for k, (name, spp) in enumerate((("walk", 256), ("direct", 24), ("path", 24))):
+        settings = Settings(width=side, height=side, spp=spp, integrator=name, seed=seed + k)
+        found[name] = samples(loaded("cornell_unit"), settings, steps)
+    fine = agreement(blocks(found["direct"], settings, 4), blocks(found["path"], settings, 4))
+    return max(fine, agreement([found["walk"]], [found["direct"]]))
+
+
+def regions(seed, steps=RIGHT):
+    """The homework's regions."""
+    settings = Settings(width=784, height=784, spp=4, seed=seed, integrator="direct", jitter=False)
+    return max(homework(name, settings, steps, 600)[0] for name in HOMEWORK if name != "picture")
+
+
+# From the cheapest to the dearest.
+CHECKS = (lamp_points, bounces, shadows, spread, energy, regions, loops)

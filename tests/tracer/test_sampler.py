@@ -185,5 +185,5 @@ def test_no_number_is_used_twice(suite_seed, scene, integrator):
 
 def test_the_same_numbers_at_every_depth_are_caught(suite_seed):
     """The broken twin: the depth never reaches the sampler."""
-    settings = Settings(width=8, height=8, spp=4, seed=suite_seed)
+    settings = Settings(width=8, height=8, spp=4, seed=suite_seed, max_depth=4)
     assert max(asked_for(loaded("cornell_unit"), settings, np.zeros_like).values()) > 1

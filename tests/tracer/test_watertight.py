@@ -1,8 +1,8 @@
 """No ray passes between the triangles of a closed mesh, not even one aimed at an edge or a corner.
 
-The bar is Vulkan's conformance suite's: zero. A mesh of 1280 triangles on a sphere is shot at from inside, at
-the origin and at the place where Embree tests itself, (148376, 1234, -223423). Of N rays without an escape the
-true rate is below 3 / N with 95 % confidence; N is stated by each test.
+The bar is that of Vulkan's conformance suite: zero. A mesh of 1280 triangles on a sphere is shot at from
+inside, at the origin and at the place where Embree tests itself, (148376, 1234, -223423). Of N rays without
+an escape the true rate is below 3 / N with 95 % confidence: 1 in 160 000 for all of the long run together.
 """
 
 import numpy as np
@@ -45,7 +45,7 @@ def escapes(place, aim, dtype, n, seed, kernel=None):
     built, faces = closed_mesh(place, dtype)
     kernel = kernel or built
     rng = np.random.default_rng(seed)
-    middle, size = built.vertices.astype(float).mean(axis=0), np.ptp(built.vertices.astype(float)) / 2
+    middle, size = built.vertices.astype(float).mean(axis=0), np.ptp(built.vertices[:, 0].astype(float)) / 2
     o = rng.uniform(-0.5, 0.5, (3, n)) * size + middle[:, None]
     o[:, : n // 10] = middle[:, None]  # a tenth from the middle itself, where symmetric mistakes show
     o = o.astype(dtype)
@@ -75,7 +75,7 @@ class MoellerTrumbore:
     """The test of most tutorials (Moeller and Trumbore 1997), with its usual epsilon."""
 
     def __init__(self, kernel):
-        a, b, c = (kernel.vertices[kernel.faces[:, k]] for k in range(3))
+        a, b, c = (kernel.vertices[kernel.corners[:, k]] for k in range(3))
         self.a, self.ab, self.ac = a, b - a, c - a
 
     def closest(self, rays):
@@ -102,7 +102,7 @@ def test_the_usual_triangle_test_is_caught_letting_rays_through(suite_seed, dtyp
 
 @both
 def test_rays_along_the_axes_through_corners_do_not_escape(dtype):
-    """Directions with two zeros, through the six corners of an octahedron, and with one zero, through edges."""
+    """Through the six corners of an octahedron, along the axes, and through its edges, with one zero."""
     corners = np.concatenate((np.eye(3), -np.eye(3)))
     faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
     kernel = Mesh("octahedron", corners, np.array(faces)).kernel(0, 1.0, dtype)
