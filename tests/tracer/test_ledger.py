@@ -8,6 +8,7 @@ import json
 import numpy as np
 import pytest
 from cases import INTEGRATORS, SCENES, loaded
+from suite import castray
 
 import tracer
 from lessons import zoo
@@ -81,6 +82,22 @@ def test_200_pixels_are_the_sums_of_their_events(suite_seed, scene, integrator, 
 def test_a_pixel_is_the_sum_of_its_events(suite_seed, scene, integrator, precision):
     settings = square(18, integrator=integrator, seed=suite_seed, precision=precision)
     adds_up(loaded(scene), settings, some_pixels(3, suite_seed))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "integrator"), zip(SCENES, ["path", "direct", "path", "walk"], strict=True)
+)
+def test_the_commands_tell_the_same(suite_seed, tmp_path, scene, integrator):
+    """`castray inspect --json` adds up to the file that `castray render` wrote."""
+    options = ["--size", "10", "10", "--spp", "18", "--seed", suite_seed, "--integrator", integrator]
+    done = castray("render", scene, *options, "-o", "out.npy", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    rgb = np.load(tmp_path / "out.npy")
+    for x, y in ((0, 0), (4, 5), (9, 7)):
+        done = castray("inspect", scene, *options, "--pixel", x, y, "--json", cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert pixel_from(json.loads(done.stdout), np.float32).tobytes() == rgb[y, x].tobytes()
 
 
 def sometimes_nan(beta, f, cos, light, w):
