@@ -143,7 +143,7 @@ class Scene:
         t = np.full(rays.source.shape, np.inf, self.dtype)
         primitive = np.full(rays.source.shape, -1, np.int32)
         for kernel in self._kernels:
-            t_k, hint = kernel.closest(rays)
+            t_k, hint = kernel.closest(rays, t)
             nearer = t_k < t
             if kernel.faces == 1:
                 np.copyto(primitive, kernel.first, where=nearer)
@@ -205,7 +205,7 @@ class Scene:
         )
         blocked = np.zeros(distance.shape, bool)
         for kernel in self._kernels:
-            blocked |= kernel.closest(rays)[0] < distance
+            blocked |= kernel.closest(rays, distance)[0] < distance
         return blocked
 
     def blocker(self, vertex, event):

@@ -21,11 +21,18 @@ app = App(
 
 def _whole(type_, tokens):
     """A whole number, and not a rounded one."""
-    return int(tokens[0].value)
+    return _integer(tokens[0].value)
 
 
 def _two_whole(type_, tokens):
-    return tuple(int(token.value) for token in tokens)
+    return tuple(_integer(token.value) for token in tokens)
+
+
+def _integer(text):
+    try:
+        return int(text)
+    except ValueError:
+        raise TracerError(f"{text!r} is not a whole number") from None
 
 
 def _path_options():

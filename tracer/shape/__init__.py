@@ -9,7 +9,8 @@
 and a kernel that answers for a whole wave of Rays:
 
     first, faces                    number of its first primitive in the scene, and how many it has
-    closest(rays) -> (t (N,), hint)  distance to the nearest hit, inf or NaN where there is none
+    closest(rays, within) -> (t (N,), hint)  distance to the nearest hit, inf or NaN where there is
+                                    none; what lies beyond `within` (N,) may be left out
     face(hint, rays, t, lanes)      number of the primitive within the shape for the lanes that hit, if
                                     there is more than one
 

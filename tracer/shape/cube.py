@@ -88,7 +88,7 @@ class CubeKernel:
         self.outward = transform.normals(cube.to_world, _NORMALS).astype(dtype)
         self.one = dtype(1.0)
 
-    def closest(self, rays):
+    def closest(self, rays, within=np.inf):
         """Distance to the first face met, inf for a miss, and the rays in the cube's frame."""
         o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
         d = [linear(row, rays.d) for row in self.rows]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.settings import TracerError
+from tracer.shape import bvh
 
 # Lanes times triangles in flight: small enough to stay in cache.
 _CHUNK = 1 << 15
@@ -90,85 +91,90 @@ def _check(name, vertices, faces):
 
 
 class MeshKernel:
-    """Watertight test of every triangle (Woop, Benthin and Wald 2013), a block of triangles at a time.
+    """Watertight test of triangles (Woop, Benthin and Wald 2013), a leaf of the tree at a time.
 
-    The ray is sheared onto an axis; the three edge functions of two triangles that share an edge are then
-    the same numbers with opposite signs, so no ray passes between them. In float32 an edge function that
-    comes out as exactly zero is computed again in float64, where the products are exact.
+    The ray is sheared onto the axis it points along most; the three edge functions of two triangles that
+    share an edge are then the same numbers with opposite signs, so no ray passes between them. In float32
+    an edge function that comes out as exactly zero is computed again in float64, where products are exact.
+    Of triangles at the same distance the lowest number wins, whatever the order of the walk.
     """
 
     def __init__(self, mesh, first, dtype):
-        self.first = first
+        self.first, self.faces = first, mesh.primitives
         self.vertices = mesh.vertices.astype(dtype)
         self.corners = mesh.faces
-        self.faces = len(mesh.faces)
-        self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        of_face = self.vertices[mesh.faces]
+        self.tree = bvh.build(of_face.min(axis=1), of_face.max(axis=1))
 
-    def closest(self, rays):
-        """Distance to the nearest triangle, inf for a miss, and which triangle."""
+    def closest(self, rays, within=np.inf):
+        """Distance to the nearest triangle before `within` (N,), inf where there is none, and which."""
         n = rays.source.size
-        t, face = np.full(n, np.inf, rays.o.dtype), np.zeros(n, np.int32)
-        near = np.flatnonzero(self._in_bounds(rays))
+        t, face = np.full(n, within, rays.o.dtype), np.full(n, -1, np.int32)
+        near = np.flatnonzero(bvh.meets(self.tree, rays.o, bvh.inverse(rays.d), t))
         major = np.argmax(np.abs(rays.d.take(near, axis=1)), axis=0)
         for axis in range(3):
             lanes = near[major == axis]
-            step = max(1, _CHUNK // max(lanes.size, 1))
-            for start in range(0, self.faces if lanes.size else 0, step):
-                block = np.arange(start, min(start + step, self.faces))
-                t_block = self._block(rays.take(lanes), axis, block)
-                best = np.argmin(t_block, axis=0)
-                t_best = t_block[best, np.arange(lanes.size)]
-                nearer = t_best < t[lanes]
-                t[lanes[nearer]] = t_best[nearer]
-                face[lanes[nearer]] = block[best[nearer]]
+            if lanes.size:
+                t[lanes], face[lanes] = self._along(axis, rays.take(lanes), t[lanes])
+        return np.where(face >= 0, t, np.inf), face
+
+    def _along(self, axis, rays, t):
+        """closest, for rays whose largest component is `axis`."""
+        kx, ky = (axis + 1) % 3, (axis + 2) % 3
+        along = rays.d[axis]
+        sheared = np.stack(
+            (rays.o[kx], rays.o[ky], rays.o[axis], rays.d[kx] / along, rays.d[ky] / along, along)
+        )
+        face = np.full(t.size, -1, np.int32)
+
+        def visit(triangles, lanes):
+            step = max(1, _CHUNK // triangles.size)
+            for start in range(0, lanes.size, step):
+                part = lanes[start : start + step]
+                found = self._triangles(triangles, (kx, ky, axis), sheared.take(part, axis=1), rays, part)
+                best = np.argmin(found, axis=0)
+                t_best, number = found[best, np.arange(part.size)], triangles[best]
+                nearer = (t_best < t[part]) | ((t_best == t[part]) & (number < face[part]))
+                t[part[nearer]], face[part[nearer]] = t_best[nearer], number[nearer]
+
+        bvh.walk(self.tree, rays.o, rays.d, t, visit)
         return t, face
 
     def face(self, hint, rays, t, lanes):
         """The triangle found with the distance."""
         return hint[lanes]
 
-    def _in_bounds(self, rays):
-        """Whether each ray meets the bounding box, widened by its own rounding (Ize 2013)."""
-        near, far = -np.inf, np.inf
-        for k in range(3):
-            side = rays.d[k] >= 0.0
-            enter = np.where(side, self.low[k], self.high[k])
-            leave = np.where(side, self.high[k], self.low[k])
-            near = np.fmax(near, (enter - rays.o[k]) * rays.inv_d[k])
-            far = np.fmin(far, (leave - rays.o[k]) * rays.inv_d[k])
-        slack = 4.0 * np.finfo(rays.o.dtype).eps
-        widened = far + slack * np.abs(far)
-        return (near - slack * np.abs(near) <= widened) & (widened >= 0.0)
-
-    def _block(self, rays, axis, block):
-        """Distances (T, N) of the rays, whose largest component is `axis`, to a block of triangles."""
-        kx, ky = (axis + 1) % 3, (axis + 2) % 3
-        shear_x = rays.d[kx] / rays.d[axis]
-        shear_y = rays.d[ky] / rays.d[axis]
-        x, y, z = [], [], []
-        for k in range(3):
-            v = self.vertices[self.corners[block, k]]
-            along = v[:, axis, None] - rays.o[axis]
-            x.append((v[:, kx, None] - rays.o[kx]) - shear_x * along)
-            y.append((v[:, ky, None] - rays.o[ky]) - shear_y * along)
-            z.append(along)
+    def _triangles(self, triangles, axes, sheared, rays, lanes):
+        """Distances (T, N) of sheared rays to triangles; inf for a miss."""
+        x, y, z = _shear(self.vertices, self.corners[triangles], axes, sheared)
         u, v, w = _edges(x, y)
         if u.dtype == np.float32:
             again = (u == 0.0) | (v == 0.0) | (w == 0.0)
             if again.any():
-                exact = _edges(
-                    [c[again].astype(np.float64) for c in x], [c[again].astype(np.float64) for c in y]
-                )
+                exact = _edges(*([c[again].astype(np.float64) for c in side] for side in (x, y)))
                 for edge, better in zip((u, v, w), exact, strict=True):
                     edge[again] = better
         inside = ((u >= 0.0) & (v >= 0.0) & (w >= 0.0)) | ((u <= 0.0) & (v <= 0.0) & (w <= 0.0))
         det = u + v + w
-        t = (u * z[0] + v * z[1] + w * z[2]) / (det * rays.d[axis])
-        number = self.first + block[:, None]
-        hit = inside & (det != 0.0) & (t > 0.0) & (rays.source != number)
+        t = (u * z[0] + v * z[1] + w * z[2]) / (det * sheared[5])
+        number = self.first + triangles[:, None]
+        hit = inside & (det != 0.0) & (t > 0.0) & (rays.source[lanes] != number)
         if rays.target is not None:
-            hit &= rays.target != number
+            hit &= rays.target[lanes] != number
         return np.where(hit, t, np.inf)
+
+
+def _shear(vertices, corners, axes, sheared):
+    """Corners of triangles (T, 3) as the sheared rays see them: x, y, z, each three (T, N)."""
+    o, shear_x, shear_y = sheared[:3], sheared[3], sheared[4]
+    x, y, z = [], [], []
+    for k in range(3):
+        v = vertices[corners[:, k]]
+        away = v[:, axes[2], None] - o[2]
+        x.append((v[:, axes[0], None] - o[0]) - shear_x * away)
+        y.append((v[:, axes[1], None] - o[1]) - shear_y * away)
+        z.append(away)
+    return x, y, z
 
 
 def _edges(x, y):

@@ -92,7 +92,7 @@ class RectangleKernel:
             for row, scale in zip(rows, size, strict=True)
         ]
 
-    def closest(self, rays):
+    def closest(self, rays, within=np.inf):
         """Distance along each ray, inf for a miss."""
         if self.axis is None:
             t = (self.c - linear(self.n, rays.o)) / linear(self.n, rays.d)

@@ -77,7 +77,7 @@ class SphereKernel:
         self.center = sphere.center.astype(dtype).reshape(3, 1)
         self.radius = dtype(sphere.radius)
 
-    def closest(self, rays):
+    def closest(self, rays, within=np.inf):
         """Distance to the first root ahead, inf for a miss."""
         oc = rays.o - self.center
         b = dot(oc, rays.d)
