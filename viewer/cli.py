@@ -12,10 +12,17 @@ from cyclopts import App, CycloptsError, Parameter
 import tracer
 from tracer.settings import Settings, TracerError
 
+
+def _version():
+    from importlib.metadata import version
+
+    return version("castray")
+
+
 app = App(
     name="castray",
     help="A step-through debugger for path tracing: click a pixel, walk its paths, read every number.",
-    version_flags=["--version"],
+    version=_version,
 )
 
 
