@@ -174,8 +174,11 @@
         const ray = sub(at, eye.position), depth = dot(ray, ahead), f = height / 2 / Math.tan((eye.viewAngle * Math.PI) / 360);
         return depth > 0 ? [width / 2 + (f * dot(ray, side)) / depth, height / 2 - (f * dot(ray, up)) / depth] : [-999, -999];
       }
+      function watchCamera() {
+        frame = requestAnimationFrame(watchCamera);
+        place();
+      }
       function place() {
-        frame = requestAnimationFrame(place);
         const view = trame.refs[props.view];
         if (!view || !box.value) return;
         let eye;
@@ -197,7 +200,8 @@
           element.style.transform = `translate(${x}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;
         });
       }
-      onMounted(place);
+      onMounted(watchCamera);
+      watch(() => props.labels, place, { flush: "post" }); // with the words, in one and the same picture
       onBeforeUnmount(() => cancelAnimationFrame(frame));
       const home = () => { aimed = null; };
       return { box, home };
