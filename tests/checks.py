@@ -142,14 +142,15 @@ def some_events(scene, settings, steps, *kinds):
 def bounces(seed, steps=RIGHT):
     """Directions of diffuse bounces, carried back to the unit square by cos/pi, and the density they name."""
     settings = Settings(width=32, height=32, spp=8, integrator="walk", max_depth=4, seed=seed)
-    squares, wrong = [], 0.0
+    squares, wrong = [np.zeros((2, 0))], 0.0
     for bounce, hit in some_events("cornell_unit", settings, steps, BOUNCE):
         x, y, z = Frame.around(hit["n"]).to_local(bounce["wi"]).astype(float)
         squares.append(np.stack((np.arctan2(y, x) / (2 * np.pi) % 1.0, 1.0 - z * z)))
         wrong = max(wrong, np.abs(bounce["pdf"] * np.pi - z).max(initial=0.0))
-    if not squares:
+    squares = np.concatenate(squares, axis=1)
+    if not squares.size:
         return np.inf
-    p = uniform(np.clip(np.concatenate(squares, axis=1), 0, 1), 16)
+    p = uniform(np.clip(squares, 0, 1), 16)
     return max(sidak(1) / max(p, 1e-300), wrong / ROUNDING[32])
 
 
