@@ -3,13 +3,13 @@
 Prints medians and the slowest of 20 each. `python tests/bench_viewer.py [SCENE] [castray view options]`
 """
 
-import importlib.util
 import statistics
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import viewers  # noqa: E402
+
 ROUNDS = 20
 LIMITS = {"pick": 250, "step": 100}
 
@@ -51,14 +51,6 @@ ARM = """
 """
 
 
-def fixtures():
-    """The module that starts viewers for the tests."""
-    spec = importlib.util.spec_from_file_location("viewer_conftest", HERE / "viewer" / "conftest.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def timed(page, act):
     """Milliseconds from an input to what it changed, drawn."""
     page.evaluate(ARM)
@@ -94,11 +86,10 @@ def measure(chromium, words):
     """{"pick": [...], "step": [...]} in milliseconds."""
     from playwright.sync_api import sync_playwright
 
-    tools = fixtures()
-    server = tools.Server(*words)
+    server = viewers.Server(*words)
     try:
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=chromium, args=list(tools.SWITCHES))
+            browser = playwright.chromium.launch(executable_path=chromium, args=list(viewers.SWITCHES))
             page = browser.new_page(viewport={"width": 1500, "height": 900})
             page.goto(server.address)
             page.wait_for_selector("html[data-ready]")

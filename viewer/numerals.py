@@ -22,11 +22,6 @@ def several(values):
     return "  ".join(short(v) for v in np.ravel(values))
 
 
-def exact(value):
-    """Every digit, as a list of numbers that JSON can hold; None where there is none."""
-    return [v if math.isfinite(v) else None for v in map(float, np.ravel(value))]
-
-
 def tex(value, digits=4):
     """One number for a formula."""
     value = float(value)

@@ -1,7 +1,8 @@
 """Every number of the current event, with its meaning and unit."""
 
+from tracer.recorder import plain
 from viewer.caption import shown
-from viewer.numerals import css, exact
+from viewer.numerals import css
 from viewer.panels.panel import Panel
 
 TEMPLATE = """
@@ -30,7 +31,7 @@ def _row(kind, field, value, scene, say):
         "meaning": say.meaning(kind, field.name),
         "value": shown(field, value, scene, say),
         "unit": field.unit,
-        "exact": exact(value),
+        "exact": plain(value, field, scene),
         "colour": css(value) if field.name in COLOURED else "",
     }
 

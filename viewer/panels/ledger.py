@@ -3,6 +3,7 @@
 import numpy as np
 
 import tracer
+from tracer.recorder import number
 from viewer.numerals import css, several
 from viewer.panels.panel import Panel
 
@@ -39,7 +40,7 @@ def show(session, say):
         "sources": _sources(record, say),
         "mean_name": say("ledger.mean", n=len(record.paths)),
         "value": several(record.value),
-        "exact": [float(v) for v in record.value],
+        "exact": [number(v) for v in record.value],
         "pixel_adds_up": pixel_adds_up,
         "pixel_check": say("ledger.exact" if pixel_adds_up else "ledger.differs", other=several(folded)),
         "path_name": say("ledger.path", path=path.sample),

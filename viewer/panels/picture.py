@@ -1,5 +1,6 @@
 """The rendered picture: zoom, hover, pick, fields for x and y, exposure."""
 
+from tracer.recorder import number
 from viewer.numerals import several
 from viewer.panels.panel import Panel
 
@@ -37,7 +38,7 @@ def show(session, say):
         "x": cursor.x,
         "y": cursor.y,
         "value": several(record.value),
-        "exact": [float(v) for v in record.value],
+        "exact": [number(v) for v in record.value],
     }
 
 
