@@ -88,6 +88,11 @@ class Scene:
         self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
         self._reach = np.abs(self._c)  # what enters a primitive's error bound beside the point itself
         self._spheres = []
+        self._smooth = [
+            (first, shape)
+            for first, shape in zip(self.first, self.shapes, strict=True)
+            if getattr(shape, "normals", None) is not None
+        ]
         for first, shape in zip(self.first, self.shapes, strict=True):
             if isinstance(shape, Sphere):
                 center, side = (
@@ -160,8 +165,24 @@ class Scene:
         """Everything about the points o + t d, all of which lie on a primitive."""
         p, ng, bound = self._on_surface(o + t * d, primitive)
         wo = -d
+        n = self._shading_normals(p, ng, wo, primitive) if self._smooth else ng
         light = self.light_of.take(primitive)
-        return Hit(p, t, primitive, ng, ng, wo, dot(ng, wo) > 0.0, self.bsdf_of.take(primitive), light, bound)
+        return Hit(p, t, primitive, ng, n, wo, dot(ng, wo) > 0.0, self.bsdf_of.take(primitive), light, bound)
+
+    @property
+    def has_smooth_normals(self):
+        """Whether any shape is shaded by other normals than its own."""
+        return bool(self._smooth)
+
+    def _shading_normals(self, p, ng, wo, primitive):
+        """Interpolated normals where a shape has them; ng where they are none or would turn the side seen."""
+        n = ng.copy()
+        for first, shape in self._smooth:
+            lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
+            smooth = shape.shading_normals(p[:, lanes], primitive[lanes] - first)
+            good = dot(smooth, wo[:, lanes]) * dot(ng[:, lanes], wo[:, lanes]) > 0.0  # not so for NaN
+            n[:, lanes[good]] = smooth[:, good]
+        return n
 
     def _on_surface(self, p, primitive):
         """Points put onto their surfaces, the normals there, and the bound on what is left."""

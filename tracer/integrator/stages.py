@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE
-from tracer.frame import cos_theta
+from tracer.frame import cos_theta, dot
 
 
 class Direct(NamedTuple):
@@ -52,6 +52,8 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
     light = wave.steps.light_point(scene, hit, u)
     wi = frame.to_local(light.wi)
     f = scene.bsdf.eval(hit.bsdf, wo, wi)
+    if scene.has_smooth_normals:
+        f = f * sides_agree(hit, light.wi)
     pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi)
     return Direct(lanes, light, f, np.abs(cos_theta(wi)), pdf_bsdf, u)
 
@@ -97,6 +99,14 @@ def add_light(scene, wave, paths, hit, direct, w):
     return paths._replace(L=L)
 
 
+def sides_agree(hit, wi):
+    """Whether wi (3, N) is on the same side of the surface by its shading and by its true normal, (N,).
+
+    Light that only the shading normal lets through would leak through the surface (Veach 1997, 5.3).
+    """
+    return dot(hit.n, wi) * dot(hit.ng, wi) > 0.0
+
+
 def bounce_event(paths, sample, wi, cos, u, beta):
     """The BOUNCE of paths; wi is the new direction in world space, beta the throughput after it."""
     return BOUNCE(
@@ -119,12 +129,12 @@ def go_on(scene, wave, paths, hit, frame, wo):
     steps, settings = wave.steps, wave.settings
     u = wave.random(paths.pixel, paths.sample, paths.depth, "bsdf")
     sample = steps.bounce(scene, hit, wo, u)
+    wi = frame.to_world(sample.wi)
+    if scene.has_smooth_normals:
+        sample = sample._replace(f=sample.f * sides_agree(hit, wi))
     cos = np.abs(cos_theta(sample.wi))
     nowhere = ~((sample.pdf > 0.0) & (sample.f > 0.0).any(axis=0))
-    paths, hit, frame, sample, cos, u = yield from wave.stop(
-        paths, nowhere, "absorbed", hit, frame, sample, cos, u
-    )
-    wi = frame.to_world(sample.wi)
+    paths, hit, wi, sample, cos, u = yield from wave.stop(paths, nowhere, "absorbed", hit, wi, sample, cos, u)
     beta = steps.throughput(paths.beta, sample, cos)
     yield bounce_event(paths, sample, wi, cos, u, beta)
     paths = paths._replace(beta=beta, pdf_bsdf=np.where(sample.delta, np.inf, sample.pdf).astype(beta.dtype))

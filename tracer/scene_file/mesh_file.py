@@ -5,20 +5,52 @@ import numpy as np
 from tracer.settings import TracerError
 
 
-def read(path, place):
-    """Vertices (V, 3) float64 and faces (F, 3) of a mesh file. Raises TracerError naming the place."""
-    import trimesh
+def read(path, place, smooth):
+    """Vertices (V, 3) float64, faces (F, 3) and vertex normals (V, 3), or None where there are none.
 
+    smooth: True for normals in any case (made from the faces where the file has none), False for none, None
+    for those the file has. Raises TracerError naming the place.
+    """
     if not path.is_file():
         raise TracerError(f"{place}: there is no file {path}")
     try:
-        # No processing: what the file says is what is checked and shown.
-        mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
-        vertices, faces = np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
+        vertices, faces, normals = _read(path)
     except Exception as error:  # trimesh raises whatever its parsers do
         raise TracerError(
             f"{place}: {path} cannot be read as a mesh: {type(error).__name__}: {error}"
         ) from None
     if vertices.ndim != 2 or vertices.shape[1:] != (3,) or faces.ndim != 2 or faces.shape[1:] != (3,):
         raise TracerError(f"{place}: {path} holds no triangles")
-    return vertices, faces
+    if smooth is False:
+        return vertices, faces, None
+    return vertices, faces, _made(vertices, faces) if smooth and normals is None else normals
+
+
+def _read(path):
+    """What a file says, unprocessed: that is what is checked and shown."""
+    import trimesh
+    from trimesh.exchange.load import mesh_loaders
+
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in ("obj", "ply"):  # their stored normals are lost in a Trimesh; the others are flat here
+        mesh = trimesh.load_mesh(path, process=False)
+        return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64), None
+    with path.open("rb") as file:
+        said = mesh_loaders[kind](file, file_type=kind, skip_materials=True, maintain_order=True)
+    parts = list(said["geometry"].values()) if "geometry" in said else [said]
+    start = np.cumsum([0] + [len(part["vertices"]) for part in parts])
+    vertices = np.concatenate([np.asarray(part["vertices"], np.float64) for part in parts])
+    faces = np.concatenate(
+        [np.asarray(part["faces"], np.int64) + k for part, k in zip(parts, start, strict=False)]
+    )
+    normals = [part.get("vertex_normals") for part in parts]
+    if any(n is None or np.shape(n) != np.shape(p["vertices"]) for n, p in zip(normals, parts, strict=True)):
+        return vertices, faces, None
+    return vertices, faces, np.concatenate([np.asarray(n, np.float64) for n in normals])
+
+
+def _made(vertices, faces):
+    """Normals from the faces round each vertex, weighted by their angles there."""
+    import trimesh
+
+    return np.array(trimesh.Trimesh(vertices, faces, process=False).vertex_normals)

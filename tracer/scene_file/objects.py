@@ -9,7 +9,7 @@ from tracer.scene_file.words import MISSING, Words, colour, listed, near, real, 
 from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
 
-SHAPES = ("rectangle", "cube", "sphere", "obj", "ply")
+SHAPES = ("rectangle", "cube", "sphere", "obj", "ply", "stl", "gltf")
 BSDFS = ("diffuse", "conductor", "dielectric")
 SENSORS = ("perspective",)
 
@@ -127,13 +127,17 @@ def _mesh(table, matrix, flip, folder):
     filename = table.take("filename")
     if not isinstance(filename, str):
         raise TracerError(f"{table.place}.filename: {filename!r} is not the name of a file")
-    if table.take("face_normals", True) is not True:
-        raise TracerError(f"{table.place}.face_normals: only true is supported: meshes are flat shaded")
-    vertices, faces = read(folder / filename, f"{table.place}.filename")
+    flat = table.take("face_normals", None)
+    if flat not in (None, True, False):
+        raise TracerError(f"{table.place}.face_normals: {flat!r} is neither true nor false")
+    smooth = None if flat is None else not flat
+    vertices, faces, normals = read(folder / filename, f"{table.place}.filename", smooth)
     turned = np.linalg.det(matrix[:3, :3]) < 0.0  # a reflection turns the winding round
     moved = vertices @ matrix[:3, :3].T + matrix[:3, 3]
     try:
-        return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip)
+        if normals is not None:
+            normals = normals @ np.linalg.inv(matrix[:3, :3])  # by the inverse transpose
+        return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip, normals)
     except TracerError as error:
         raise TracerError(f"{error} ({folder / filename})") from None
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracer.frame import dot, normalize
 from tracer.settings import TracerError
 from tracer.shape import bvh
 
@@ -13,16 +14,18 @@ _CHUNK = 1 << 15
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles in world space, flat shaded.
+    """Triangles in world space.
 
-    vertices: (V, 3) metres; faces: (F, 3) vertex numbers, counter-clockwise seen from outside.
-    Triangles without area are dropped: nothing can be seen of them.
+    vertices: (V, 3) metres; faces: (F, 3) vertex numbers, counter-clockwise seen from outside; normals:
+    (V, 3) for smooth shading, of any length, or None for flat. Triangles without area are dropped: nothing
+    can be seen of them.
     """
 
     name: str
     vertices: np.ndarray
     faces: np.ndarray
     flip_normals: bool = False
+    normals: np.ndarray | None = None
 
     def __post_init__(self):
         _check(self.name, self.vertices, self.faces)
@@ -62,12 +65,18 @@ class Mesh:
 
     def uv(self, p, face):
         """Barycentric coordinates of the second and third vertex, (2, N)."""
-        a, e1, e2 = (v[:, face] for v in self.corners())
-        d11, d12, d22 = (e1 * e1).sum(0), (e1 * e2).sum(0), (e2 * e2).sum(0)
-        q = p - a
-        q1, q2 = (q * e1).sum(0), (q * e2).sum(0)
+        a, b, c = (self.vertices[self.faces[face, k]].T.astype(p.dtype) for k in range(3))
+        e1, e2, q = b - a, c - a, p - a
+        d11, d12, d22, q1, q2 = dot(e1, e1), dot(e1, e2), dot(e2, e2), dot(q, e1), dot(q, e2)
         det = d11 * d22 - d12 * d12
         return np.stack(((d22 * q1 - d12 * q2) / det, (d11 * q2 - d12 * q1) / det))
+
+    def shading_normals(self, p, face):
+        """Normals interpolated between the vertices and made unit again, (3, N); NaN where they cancel."""
+        v, w = self.uv(p, face)
+        a, b, c = (self.normals[self.faces[face, k]].T.astype(p.dtype) for k in range(3))
+        n = normalize((1.0 - v - w) * a + v * b + w * c)
+        return -n if self.flip_normals else n
 
     def kernel(self, first, extent, dtype):
         """The intersection routine."""
