@@ -110,7 +110,9 @@ def main():
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     times = measure(chromium, sys.argv[1:] or ["cornell_unit"])
     for name, values in times.items():
-        print(f"{name}: median {statistics.median(values):.0f} ms, slowest {max(values):.0f} ms, limit {LIMITS[name]} ms")
+        print(
+            f"{name}: median {statistics.median(values):.0f} ms, slowest {max(values):.0f} ms, limit {LIMITS[name]} ms"
+        )
     return int(any(statistics.median(v) > LIMITS[k] for k, v in times.items()))
 
 

@@ -1,4 +1,4 @@
-"""An event in words, and why a dead path carries nothing. Labels come from the schema, sentences from the table."""
+"""An event in words, and why a dead path carries nothing."""
 
 from collections import Counter
 
@@ -45,7 +45,11 @@ def _hit(v, scene, say):
     text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"]))
     if not np.any(v["Le"] > 0):
         return text
-    return text + " " + say("caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere", w=short(v["w"]))
+    return (
+        text
+        + " "
+        + say("caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere", w=short(v["w"]))
+    )
 
 
 def light_outcome(v):

@@ -9,7 +9,9 @@ from viewer.numerals import several, short, tex
 from viewer.session import throughput
 
 CHANNELS = ("R", "G", "B")
-WORTH_SAYING = 1e-4  # relative difference above which the formula's own result is shown beside the recorded one
+WORTH_SAYING = (
+    1e-4  # relative difference above which the formula's own result is shown beside the recorded one
+)
 
 
 @dataclass(frozen=True)
@@ -47,9 +49,18 @@ class Product:
 def formulas(path, index, settings, say):
     """Everything the equation panel shows for one event, ready to send."""
     event = path.events[index]
-    product = PRODUCTS.get(event.kind.name, lambda v, beta: None)(event.values, throughput(path.events, index))
+    product = PRODUCTS.get(event.kind.name, lambda v, beta: None)(
+        event.values, throughput(path.events, index)
+    )
     if product is None:
-        return {"symbolic": _special(path, event), "rows": [], "legend": [], "result": "", "differs": "", "weight": None}
+        return {
+            "symbolic": _special(path, event),
+            "rows": [],
+            "legend": [],
+            "result": "",
+            "differs": "",
+            "weight": None,
+        }
     return {
         "symbolic": mathml(_symbolic(product)),
         "rows": [{"channel": c, "math": mathml(_numeric(product, k))} for k, c in enumerate(CHANNELS)],
@@ -78,7 +89,7 @@ def _light(v, beta):
 
 
 def _bounce(v, beta):
-    over = (Factor(r"\beta", "beta_before", v["beta_before"]), Factor("f", "f", v["f"]))
+    over: tuple = (Factor(r"\beta", "beta_before", v["beta_before"]), Factor("f", "f", v["f"]))
     if not v["delta"]:  # at a Dirac lobe the cosine cancels
         over += (Factor(r"\cos\theta", "cos", v["cos"]),)
     return Product(r"\beta' = ", over, (Factor("P" if v["delta"] else "p", "pdf", v["pdf"]),), v["beta"])
@@ -89,7 +100,10 @@ def _roulette(v, beta):
         return None
     q = np.asarray(v["probability"], float)
     return Product(
-        r"\beta' = ", (Factor(r"\beta", "beta", np.asarray(v["beta"], float) * q),), (Factor("q", "probability", q),), v["beta"]
+        r"\beta' = ",
+        (Factor(r"\beta", "beta", np.asarray(v["beta"], float) * q),),
+        (Factor("q", "probability", q),),
+        v["beta"],
     )
 
 
@@ -134,7 +148,9 @@ def _special(path, event):
         v = event.values
         return mathml(rf"u = {tex(v['u'])} \geq q = {tex(v['probability'])}")
     given = [e.step for e in path.events if np.any(np.asarray(e.values.get("contribution", 0)) > 0)]
-    terms = " + ".join(rf"\Delta L_{{{step}}}" for step in given[:6]) + (r" + \cdots" if len(given) > 6 else "")
+    terms = " + ".join(rf"\Delta L_{{{step}}}" for step in given[:6]) + (
+        r" + \cdots" if len(given) > 6 else ""
+    )
     return mathml("L = " + (terms or "0"))
 
 

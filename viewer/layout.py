@@ -44,7 +44,9 @@ TAB = (
 
 def template(view):
     """The whole page as a Vue template; view is the element of the 3D view."""
-    places = {place: [p for p in all_panels() if p.place == place] for place in ("left", "right", "tab", "below")}
+    places = {
+        place: [p for p in all_panels() if p.place == place] for place in ("left", "right", "tab", "below")
+    }
     slots = {place: "".join(p.template for p in panels) for place, panels in places.items() if place != "tab"}
     slots["tablist"] = "".join(TAB.format(p.name) for p in places["tab"])
     slots["tabs"] = "".join(f"<div v-if=\"tab === '{p.name}'\">{p.template}</div>" for p in places["tab"])

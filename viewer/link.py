@@ -1,4 +1,4 @@
-"""The link that names a moment: scene, settings, pixel, path and event. It holds no key, so it can be passed on."""
+"""The link that names a moment: scene, settings, pixel, path, event. It holds no key and can be passed on."""
 
 from dataclasses import dataclass, fields
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
@@ -44,7 +44,9 @@ def parse(text):
         raise TracerError("link: says the same thing twice")
     unknown = sorted(words.keys() - {"scene", *PLACE, *DEFAULTS})
     if unknown:
-        raise TracerError(f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS))}")
+        raise TracerError(
+            f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS))}"
+        )
     if not words.get("scene"):
         raise TracerError("link: names no scene")
     settings = Settings(**{k: _setting(k, words[k]) for k in DEFAULTS.keys() & words.keys()})

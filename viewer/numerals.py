@@ -1,4 +1,4 @@
-"""Numbers as a person reads them: five significant digits, vectors as triples, nothing for what does not apply."""
+"""Numbers as a person reads them: five significant digits, a dash for what does not apply; and colours."""
 
 import math
 

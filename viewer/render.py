@@ -21,35 +21,39 @@ def passes(spp):
 
 
 class Painter:
-    """Renders in a thread of its own and tells what it has.
+    """Renders in a thread of its own and tells what it has."""
 
-    done(rgb, samples) and progress(share, samples) are called in that thread; failed(text) where it cannot go on.
-    """
+    def __init__(self, scene, settings):
+        self.scene, self.settings, self._stop = scene, settings, threading.Event()
 
-    def __init__(self, scene, settings, done, progress, failed):
-        self._asked = scene, settings, done, progress, failed
-        self._stop = threading.Event()
-        threading.Thread(target=self._work, daemon=True).start()
+    def start(self, done, progress, failed):
+        """done(rgb, samples), progress(share, samples) and failed(text) are called in that thread."""
+        threading.Thread(target=self._work, args=(done, progress, failed), daemon=True).start()
 
     def stop(self):
         """Give up at the next report of progress."""
         self._stop.set()
 
-    def _work(self):
-        scene, settings, done, progress, failed = self._asked
-
-        def report(part, total):
-            if self._stop.is_set():
-                raise Stopped
-            progress(part / max(total, 1), spp)
-
+    def _work(self, done, progress, failed):
         try:
-            for spp in passes(settings.spp):
-                picture = tracer.render(scene, replace(settings, spp=spp), progress=report)
-                if self._stop.is_set():
-                    return
+            for spp in passes(self.settings.spp):
+                picture = tracer.render(
+                    self.scene, replace(self.settings, spp=spp), progress=self._reporter(progress, spp)
+                )
+                self._check()
                 done(picture.rgb, spp)
         except Stopped:
             return
         except (tracer.TracerError, MemoryError, OSError) as error:
             failed(str(error))
+
+    def _reporter(self, progress, spp):
+        def report(part, total):
+            self._check()
+            progress(part / max(total, 1), spp)
+
+        return report
+
+    def _check(self):
+        if self._stop.is_set():
+            raise Stopped

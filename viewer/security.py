@@ -80,7 +80,9 @@ class Door:
 def _from_here(request, port):
     hosts = [f"127.0.0.1:{port}", f"localhost:{port}"]
     origin = request.headers.get("Origin")
-    return request.headers.get("Host") in hosts and (origin is None or origin in [f"http://{h}" for h in hosts])
+    return request.headers.get("Host") in hosts and (
+        origin is None or origin in [f"http://{h}" for h in hosts]
+    )
 
 
 def _policy(port):

@@ -1,4 +1,4 @@
-"""What the viewer knows: a scene, its settings, the picked pixel's recorded paths and the place in them. No web."""
+"""What the viewer knows: a scene, its settings, the picked pixel's paths and the place in them. No web."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ class Session:
     def adopt(self, scene, settings):
         """Turn to another scene or other settings; no pixel is picked yet."""
         self.scene, self.settings = scene, settings.at_size_of(scene)
-        self.rgb, self.spp_done = None, 0
+        self.spp_done = 0
         self.record, self.cursor = None, None
 
     def pick(self, x, y):
@@ -37,13 +37,13 @@ class Session:
         scene = self.scene if link.scene == self.scene.name else self.load(link.scene)
         settings = link.settings.at_size_of(scene)
         renewed = scene is not self.scene or settings != self.settings
-        kept = self.scene, self.settings, self.rgb, self.spp_done, self.record, self.cursor
+        kept = self.scene, self.settings, self.spp_done, self.record, self.cursor
         try:
             if renewed:
                 self.adopt(scene, settings)
             self.stand(link.place)
         except (tracer.TracerError, IndexError):
-            self.scene, self.settings, self.rgb, self.spp_done, self.record, self.cursor = kept
+            self.scene, self.settings, self.spp_done, self.record, self.cursor = kept
             raise
         return renewed
 
@@ -101,7 +101,7 @@ def throughput(events, index):
 
 
 def telling_pixel(scene, settings, tries=9):
-    """A pixel worth opening with: of a few spread over the picture, the one whose brightest path shows most."""
+    """A pixel worth opening with: of a few over the picture, the one whose brightest path shows most."""
     few = replace(settings, spp=min(settings.spp, 8))
     places = [
         (int((0.3 + 0.2 * (k % 3)) * settings.width), int((0.5 + 0.15 * (k // 3)) * settings.height))

@@ -18,7 +18,13 @@ def _icosahedron_faces():
     """All triples of vertices that are neighbours of each other, turned to face outwards."""
     near = np.linalg.norm(ICOSAHEDRON[:, None] - ICOSAHEDRON[None], axis=2) < 1.1
     n = len(ICOSAHEDRON)
-    triples = [(a, b, c) for a in range(n) for b in range(a) for c in range(b) if near[a, b] and near[b, c] and near[a, c]]
+    triples = [
+        (a, b, c)
+        for a in range(n)
+        for b in range(a)
+        for c in range(b)
+        if near[a, b] and near[b, c] and near[a, c]
+    ]
     outward = [np.linalg.det(ICOSAHEDRON[list(t)]) > 0 for t in triples]
     return np.array([t if out else t[::-1] for t, out in zip(triples, outward, strict=True)])
 
@@ -42,7 +48,12 @@ def balls(centres, radius):
 def rods(starts, ends, radius, tip=None, sides=7):
     """A straight rod from each start to its end; tip is the radius at the end (0 makes a cone)."""
     starts, ends = np.reshape(starts, (-1, 3)), np.reshape(ends, (-1, 3))
-    return merge(*(_rod(a, b, radius, radius if tip is None else tip, sides) for a, b in zip(starts, ends, strict=True)))
+    return merge(
+        *(
+            _rod(a, b, radius, radius if tip is None else tip, sides)
+            for a, b in zip(starts, ends, strict=True)
+        )
+    )
 
 
 def _rod(start, end, radius, tip, sides):

@@ -43,7 +43,7 @@ class Layer:
         mapper.ScalarVisibilityOff()
         self.actor = vtkActor()
         self.actor.SetMapper(mapper)
-        # blended over what is already there, in one pass: the browser's own transparency costs it 40 ms a picture
+        # blended over what is already there, in one pass: true transparency takes a software GL 40 ms more
         self.actor.SetForceOpaque(True)
         look = self.actor.GetProperty()
         look.SetColor(*colour)
@@ -117,7 +117,7 @@ class Surface:
 
 
 class Stage:
-    """Everything in the 3D view. window goes to the browser; labels are words at places, drawn there in HTML."""
+    """Everything in the 3D view. window goes to the browser; labels are words at places, drawn in HTML."""
 
     def __init__(self, scene):
         self.renderer = vtkRenderer()

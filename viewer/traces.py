@@ -1,4 +1,4 @@
-"""A pixel's paths as solids and labels: which strokes belong to an event, a path, the other paths. Pure geometry."""
+"""A pixel's paths as solids and labels: what belongs to an event, a path, the other paths. Pure geometry."""
 
 import numpy as np
 

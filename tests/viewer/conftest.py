@@ -45,7 +45,7 @@ def context(browser):
 
 @pytest.fixture
 def visit(context):
-    """Opens an address in a new tab and waits until the viewer is ready; console errors are kept in `page.errors`."""
+    """Opens an address in a new tab and waits until it is ready; console errors go to `page.errors`."""
 
     def open_page(address, ready=True):
         page = context.new_page()

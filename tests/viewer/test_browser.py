@@ -1,4 +1,4 @@
-"""The viewer in a real browser: what it shows, where clicks and keys lead, and that it stays on this machine."""
+"""The viewer in a real browser: what it shows, and where clicks, keys and links lead."""
 
 import json
 from urllib.parse import urlsplit
@@ -67,7 +67,9 @@ def test_the_page_opens_with_requests_to_this_machine_only(page, small):
 def test_the_key_is_not_in_the_address_bar(page, small):
     assert small.key not in page.url
     assert page.url.startswith(f"http://127.0.0.1:{small.port}/#scene=cornell_unit")
-    assert small.key not in page.evaluate("() => JSON.stringify([{...localStorage}, {...sessionStorage}, document.cookie])")
+    assert small.key not in page.evaluate(
+        "() => JSON.stringify([{...localStorage}, {...sessionStorage}, document.cookie])"
+    )
 
 
 def test_a_telling_pixel_is_open_at_the_start_and_a_hint_says_what_to_do(serve, visit):
@@ -202,7 +204,10 @@ def test_the_numbers_shown_are_those_of_castray_inspect(page):
 def test_the_ledger_adds_up_and_shows_the_pixel(page):
     fill(page, 21, 37)
     page.get_by_test_id("tab-ledger").click()
-    assert json.loads(page.get_by_test_id("ledger-pixel").get_attribute("data-exact")) == truth(page)["record"]["value"]
+    assert (
+        json.loads(page.get_by_test_id("ledger-pixel").get_attribute("data-exact"))
+        == truth(page)["record"]["value"]
+    )
     for check in ("ledger-pixel-check", "ledger-path-check"):
         assert page.get_by_test_id(check).inner_text().startswith("✓")
 
@@ -210,7 +215,9 @@ def test_the_ledger_adds_up_and_shows_the_pixel(page):
 def test_the_equation_has_numbers_and_the_result(page):
     fill(page, 21, 37)
     page.get_by_test_id("tab-equation").click()
-    for step, name in enumerate(e["kind"] for e in truth(page)["record"]["samples"][truth(page)["cursor"]["path"]]["events"]):
+    for step, name in enumerate(
+        e["kind"] for e in truth(page)["record"]["samples"][truth(page)["cursor"]["path"]]["events"]
+    ):
         page.get_by_test_id(f"row-{step}").click()
         stands_at(page, event=step)
         assert page.locator("[data-testid=equation-symbolic] math").count() == 1
@@ -226,7 +233,9 @@ def test_hovering_shows_the_linear_value(page):
     value = truth(page)["record"]["value"]
     box = page.get_by_test_id("picture").bounding_box()
     page.mouse.move(box["x"] + box["width"] * 20.5 / 64, box["y"] + box["height"] * 40.5 / 64)
-    page.wait_for_function("() => document.querySelector('[data-testid=hover]').textContent.startsWith('(20, 40)')")
+    page.wait_for_function(
+        "() => document.querySelector('[data-testid=hover]').textContent.startsWith('(20, 40)')"
+    )
     shown = [float(v) for v in page.get_by_test_id("hover").inner_text().split(")")[1].split()]
     assert shown == pytest.approx(value, rel=1e-4)
 

@@ -5,7 +5,11 @@ import pytest
 from tracer.settings import Settings, TracerError
 from viewer.link import Link, is_link, parse
 
-MOMENT = Link("cornell_unit", Settings(spp=4, max_depth=5, jitter=False, heuristic="balance", precision=64), (9, 7, 2, 3))
+MOMENT = Link(
+    "cornell_unit",
+    Settings(spp=4, max_depth=5, jitter=False, heuristic="balance", precision=64),
+    (9, 7, 2, 3),
+)
 
 
 def test_a_link_comes_back_as_it_was_written():

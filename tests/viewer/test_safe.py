@@ -42,7 +42,10 @@ def talk(server, cookie, *messages, raw=None):
 
     async def conversation():
         address = f"ws://127.0.0.1:{server.port}/ws"
-        async with aiohttp.ClientSession() as session, session.ws_connect(address, headers={"Cookie": cookie}) as ws:
+        async with (
+            aiohttp.ClientSession() as session,
+            session.ws_connect(address, headers={"Cookie": cookie}) as ws,
+        ):
             answers = []
             for k, (method, args) in enumerate([("wslink.hello", [{"secret": "wslink-secret"}]), *messages]):
                 name = "system:c0:0" if k == 0 else f"rpc:c:{k}"
@@ -124,7 +127,12 @@ def test_the_page_forbids_foreign_code_and_frames(small, cookie):
 
 
 def test_files_outside_the_served_folders_are_not_given(small, cookie):
-    for path in ("/../pyproject.toml", "/castray/../app.py", "/castray/%2e%2e/app.py", "/fonts/..%2f__init__.py"):
+    for path in (
+        "/../pyproject.toml",
+        "/castray/../app.py",
+        "/castray/%2e%2e/app.py",
+        "/fonts/..%2f__init__.py",
+    ):
         assert answer(small, path, Cookie=cookie)[0] in (400, 403, 404)
 
 
@@ -165,20 +173,27 @@ BAD = [
 
 @pytest.mark.parametrize("call", BAD, ids=lambda c: f"{c[0]} {str(c[1])[:40]}")
 def test_a_bad_call_is_answered_without_a_traceback_and_changes_nothing(small, cookie, call):
-    before, reply, after = talk(small, cookie, ("trame.trigger", ["truth", [], {}]), call, ("trame.trigger", ["truth", [], {}]))
+    before, reply, after = talk(
+        small, cookie, ("trame.trigger", ["truth", [], {}]), call, ("trame.trigger", ["truth", [], {}])
+    )
     assert "Traceback" not in str(reply) and "File " not in str(reply)
     assert after["result"]["cursor"] == before["result"]["cursor"]
     assert after["result"]["link"] == before["result"]["link"]
 
 
 def test_a_page_cannot_set_the_state(small, cookie):
-    change = ("trame.state.update", [[{"key": "w", "value": {"title": "stolen"}}, {"key": "rgb", "value": "x"}]])
+    change = (
+        "trame.state.update",
+        [[{"key": "w", "value": {"title": "stolen"}}, {"key": "rgb", "value": "x"}]],
+    )
     state = talk(small, cookie, change, ("trame.state.get", []))[1]["result"]["state"]
     assert state["w"]["title"] == "castray"
     assert state["rgb"] != "x"
 
 
-@pytest.mark.parametrize("raw", [b"", b"\xc1", b"\x00" * 64, chunk(b"\xff" * 40), chunk(msgpack.packb([1, 2]))])
+@pytest.mark.parametrize(
+    "raw", [b"", b"\xc1", b"\x00" * 64, chunk(b"\xff" * 40), chunk(msgpack.packb([1, 2]))]
+)
 def test_garbage_on_the_socket_leaves_the_server_up(small, cookie, raw):
     talk(small, cookie, raw=raw)
     assert talk(small, cookie, ("trame.trigger", ["truth", [], {}]))[0]["result"]["cursor"]

@@ -17,7 +17,11 @@ def pixels(request):
     """A scene, its settings and some recorded pixels."""
     scene = tracer.load(request.param)
     settings = tracer.Settings(width=24, height=24, spp=6, max_depth=7).at_size_of(scene)
-    return scene, settings, [tracer.inspect(scene, settings, x, y) for x in (2, 9, 14, 21) for y in (3, 11, 16, 22)]
+    return (
+        scene,
+        settings,
+        [tracer.inspect(scene, settings, x, y) for x in (2, 9, 14, 21) for y in (3, 11, 16, 22)],
+    )
 
 
 def paths(pixels):

@@ -1,0 +1,105 @@
+"""What a page may ask for, and nothing else. Every argument comes from outside and is checked here."""
+
+from functools import wraps
+
+from tracer.settings import TracerError
+from viewer import link as links
+from viewer.cursor import MOVES
+
+MOST_DIGITS = 9
+LONGEST_TAB = 64
+
+
+class Calls:
+    """The calls open to a page, by name; what they refuse is shown to the reader as one line."""
+
+    def __init__(self, window):
+        self.window, self.session, self.state = window, window.session, window.state
+        names = ("go", "pick", "path", "event", "play", "open", "take", "dismiss", "truth")
+        self.by_name = {name: self._told(getattr(self, name)) for name in names}
+
+    def _told(self, call):
+        @wraps(call)
+        def told(*args):
+            try:
+                return call(*args)
+            except (TracerError, IndexError) as error:
+                self.state.message = str(error)
+                return None
+
+        return told
+
+    def go(self, move, *_):
+        """Move the cursor by one of MOVES."""
+        if move not in MOVES:
+            raise TracerError(f"move: {str(move)[:20]!r} is not known; choose one of {', '.join(MOVES)}")
+        self.window.pause()
+        self.window.move(getattr(self.session.cursor, move)())
+
+    def pick(self, x, y):
+        """Pick a pixel."""
+        settings = self.session.settings
+        x, y = whole("x", x, settings.width), whole("y", y, settings.height)
+        self.window.pause()
+        self.session.pick(x, y)
+        self.state.update({"touched": True, "message": ""})
+        self.window.refresh("pixel")
+
+    def path(self, index):
+        """Select a path by its place."""
+        index = whole("path", index, len(self.session.record.paths))
+        self.window.pause()
+        self.window.move(self.session.cursor.on(index))
+
+    def event(self, index):
+        """Go to an event of the selected path."""
+        index = whole("event", index, self.session.cursor.lengths[self.session.cursor.path])
+        self.window.pause()
+        self.window.move(self.session.cursor.at(index))
+
+    def play(self, *_):
+        """Walk on by itself, or stop."""
+        (self.window.pause if self.window.playing else self.window.play)()
+
+    def open(self, text):
+        """Turn to what a link says."""
+        if not isinstance(text, str):
+            raise TracerError("link: not a text")
+        asked, before = links.parse(text), self.session.scene
+        self.window.pause()
+        if self.session.open(asked):
+            if self.session.scene is not before:
+                self.window.furnish()
+            self.window.paint()
+        self.window.refresh("picture")
+
+    def take(self, tab, asked=""):
+        """A tab leads from now on; asked is the link in its address."""
+        if not (isinstance(tab, str) and 0 < len(tab) <= LONGEST_TAB):
+            raise TracerError("tab: expected a short text")
+        self.state.owner = tab
+        if asked and asked != self.state.link:
+            self.open(asked)
+
+    def dismiss(self):
+        """Take the message away."""
+        self.state.message = ""
+
+    def truth(self):
+        """What the server knows, for tests: the place, and the record as `castray inspect` has it."""
+        c = self.session.cursor
+        return {
+            "cursor": {"x": c.x, "y": c.y, "path": c.path, "event": c.event},
+            "link": self.session.link.write(),
+            "spp_done": self.session.spp_done,
+            "spp": self.session.settings.spp,
+            "record": self.session.record.as_dict(self.session.scene),
+        }
+
+
+def whole(name, value, end):
+    """A whole number from outside in 0..end-1."""
+    text = str(value).strip() if isinstance(value, (int, str)) and not isinstance(value, bool) else ""
+    if not (text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS and int(text) < end):
+        raise TracerError(f"{name}: {str(value)[:20]!r} is not a whole number from 0 to {end - 1}")
+    return int(text)

@@ -1,0 +1,149 @@
+"""The window on a session: what the page is told, and the picture and the walk that go on by themselves."""
+
+import asyncio
+from dataclasses import fields
+
+from tracer.settings import Settings
+from viewer.panels import all_panels
+from viewer.panels.panel import LEVELS
+from viewer.render import Painter
+from viewer.stage import Stage
+
+PLAY_SECONDS = 0.8
+IN_THE_HEADER_ANYWAY = ("width", "height", "spp", "integrator")
+
+
+class Window:
+    """Shows a session in a trame server's state. Everything here runs in the server's event loop."""
+
+    def __init__(self, server, session, say):
+        self.server, self.state, self.session, self.say = server, server.state, session, say
+        self.stage = Stage(session.scene)
+        self.painter, self.playing = None, None
+        self._build()
+        self.refresh("picture")
+
+    def _build(self):
+        from trame_client.ui.html import DivLayout
+        from trame_client.widgets import html
+        from trame_vtk.modules.vtk import get_helper
+        from trame_vtk.widgets.vtk import VtkLocalView
+
+        from viewer.layout import template
+
+        server, state = self.server, self.state
+        state.client_only("tab", "exposure")
+        first_tab = next(p.name for p in all_panels() if p.place == "tab")
+        state.update(
+            {"tab": first_tab, "exposure": 0, "w": self.say.under("ui."), "owner": "", "touched": False}
+        )
+        state.update(
+            {"message": "", "progress": "", "playing": False, "rgb": b"", "camera": self.stage.camera}
+        )
+        with DivLayout(server):
+            view = VtkLocalView(self.stage.window, ref="view", connect_parent=False, trame_server=server)
+            html.Div(children=[template(view.html)], classes="fill")
+        self.whole_stage, self._helper = view.update, get_helper(server)
+
+    def refresh(self, level):
+        """Show again what depends on a level or on what follows from it."""
+        changed = LEVELS[LEVELS.index(level) :]
+        session, cursor = self.session, self.session.cursor
+        self.stage.draw(session.record, cursor, level)
+        self._push_stage()
+        for panel in all_panels():
+            if panel.show and panel.level in changed:
+                self.state[panel.name] = panel.show(session, self.say)
+        self.state.update(
+            {
+                "path_index": cursor.path,
+                "event_index": cursor.event,
+                "labels": self.stage.labels,
+                "link": session.link.write(),
+                "header": self._header(),
+            }
+        )
+
+    def _push_stage(self):
+        """Send what changed in 3D; the whole is sent when a page asks for the state."""
+        if self.server.protocol:
+            changes = self._helper.scene(self.stage.window, new_state=False)
+            self.server.protocol.publish("trame.vtk.delta", changes)
+
+    def _header(self):
+        s = self.session.settings
+        said = [f"{s.width}×{s.height}", f"{s.spp} spp", s.integrator]
+        for option in fields(Settings):
+            value = getattr(s, option.name)
+            if option.name not in IN_THE_HEADER_ANYWAY and value != option.default:
+                said.append(f"{option.name} {value}")
+        return {"scene": self.session.scene.name, "settings": " · ".join(said)}
+
+    def move(self, cursor):
+        """Stand somewhere else in the picked pixel."""
+        before, self.session.cursor = self.session.cursor, cursor
+        if cursor != before:
+            self.refresh("event" if cursor.path == before.path else "path")
+
+    def furnish(self):
+        """Show the session's scene in 3D in place of another."""
+        self.stage.furnish(self.session.scene)
+        self.state.camera = self.stage.camera
+
+    def play(self):
+        """Walk on by itself; from the end it starts again."""
+        if self.session.cursor.at_end:
+            self.move(self.session.cursor.first())
+        self.state.playing = True
+        self.playing = asyncio.get_running_loop().create_task(self._walk())
+
+    def pause(self):
+        """Stop walking."""
+        if self.playing:
+            self.playing.cancel()
+        self.playing, self.state.playing = None, False
+
+    async def _walk(self):
+        while not self.session.cursor.at_end:
+            await asyncio.sleep(PLAY_SECONDS)
+            with self.state:
+                self.move(self.session.cursor.next())
+        with self.state:
+            self.playing, self.state.playing = None, False
+
+    def paint(self):
+        """Begin the picture anew."""
+        self.stop_painting()
+        loop, settings = asyncio.get_running_loop(), self.session.settings
+        blank = bytes(12 * settings.width * settings.height)
+        self.state.update({"rgb": blank, "progress": self.say("progress", percent=0, spp=1)})
+        painter = Painter(self.session.scene, settings)
+
+        def here(call):
+            """The call made in the loop, from the painter's thread; not of a painter that was replaced."""
+            return lambda *told: loop.call_soon_threadsafe(
+                lambda: call(*told) if painter is self.painter else None
+            )
+
+        self.painter = painter
+        painter.start(here(self._painted), here(self._progress), here(self._failed))
+
+    def stop_painting(self):
+        """Give up the picture that is being rendered, if there is one."""
+        if self.painter:
+            self.painter.stop()
+
+    def _painted(self, rgb, spp):
+        self.session.spp_done = spp
+        complete = spp == self.session.settings.spp
+        with self.state as state:
+            state.rgb = rgb.tobytes()
+            state.progress = "" if complete else self.say("progress", percent=0, spp=spp)
+
+    def _progress(self, share, spp):
+        with self.state as state:
+            state.progress = self.say("progress", percent=round(100 * share), spp=spp)
+
+    def _failed(self, text):
+        with self.state as state:
+            state.update({"message": text, "progress": ""})
