@@ -44,7 +44,18 @@ FLOORS = {
 # On the ground floor only vectors come before the rest.
 ORDERED = {("tracer.events", "tracer.frame"), ("tracer.warp", "tracer.frame")}
 
-HEAVY = ("pyvista", "vtk", "vtkmodules", "trimesh", "trame", "moderngl", "duckdb", "matplotlib", "PIL")
+HEAVY = (
+    "pyvista",
+    "vtk",
+    "vtkmodules",
+    "trimesh",
+    "trame",
+    "moderngl",
+    "duckdb",
+    "matplotlib",
+    "PIL",
+    "scipy",
+)
 
 
 def modules(root):

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tracer.frame import dot
+from tracer.frame import Frame, dot
 
 END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
 TECHNIQUES = ("area", "solid_angle", "cone", "delta")
@@ -113,17 +113,54 @@ def _blocker_distance(event, vertex, scene):
     return scene.blocker(vertex, event)[1]
 
 
-def _of_material(name, vertex, scene):
-    cos = dot(vertex["n"], vertex["wo"])
-    return scene.bsdf.property(scene.bsdf_of[vertex["primitive"]], name, cos)
+def _of_material(name, event, vertex, scene):
+    frame = Frame.around(vertex["n"])
+    wo, wi = frame.to_local(vertex["wo"]), frame.to_local(event["wi"])
+    return scene.bsdf.property(scene.bsdf_of[vertex["primitive"]], name, wo, wi)
 
 
 def _eta(event, vertex, scene):
-    return _of_material("relative_eta", vertex, scene)[0]
+    return _of_material("eta", event, vertex, scene)[0]
 
 
 def _fresnel(event, vertex, scene):
-    return _of_material("reflectance_at", vertex, scene)
+    return _of_material("F", event, vertex, scene)
+
+
+def _normals(event, vertex, scene):
+    return _of_material("D", event, vertex, scene)[0]
+
+
+def _seen(event, vertex, scene):
+    return _of_material("G1", event, vertex, scene)[0]
+
+
+def _seen_from_both(event, vertex, scene):
+    return _of_material("G2", event, vertex, scene)[0]
+
+
+def _microfacet():
+    """What stands behind f at a boundary with Fresnel's reflectance; NaN where it does not apply."""
+    return (
+        Field(
+            "F",
+            "Fresnel reflectance, at a rough boundary that of the facet",
+            (3,),
+            "probability",
+            derive=_fresnel,
+        ),
+        Field(
+            "D", "density of the facets' normals that send wi to wo", (), "density", "1/sr", derive=_normals
+        ),
+        Field("G1", "share of the facets facing wo that is seen from there", (), "probability", derive=_seen),
+        Field(
+            "G2",
+            "share of the facets that is seen from both wo and wi",
+            (),
+            "probability",
+            derive=_seen_from_both,
+        ),
+    )
 
 
 CAMERA = Kind(
@@ -200,6 +237,7 @@ LIGHT = Kind(
         Field("pdf_area", "density of q on its light's area", (), "density", "1/m²", derive=_light_pdf_area),
         Field("pdf", "density of wi, choice of the light included", (), "density", "1/sr"),
         Field("pdf_bsdf", "density with which a bounce would have given wi", (), "density", "1/sr"),
+        *_microfacet(),
         Field("w", "MIS weight of finding this light by sampling it", (), "probability"),
         Field("beta", "throughput at this vertex", (3,), "non-negative"),
         Field("u", "the random numbers: choice of the light, and of the point", (3,), "probability"),
@@ -223,7 +261,7 @@ BOUNCE = Kind(
         Field("pdf", "density of wi; at a Dirac lobe a probability", (), "density", "1/sr"),
         Field("delta", "whether the lobe is a Dirac one (its cosine cancels)", (), "flag"),
         Field("eta", "index of refraction across the surface, as seen from wo", (), "positive", derive=_eta),
-        Field("F", "Fresnel reflectance for wo", (3,), "probability", derive=_fresnel),
+        *_microfacet(),
         Field("u", "the random numbers: choice of the lobe, and of the direction", (3,), "probability"),
         Field("beta_before", "throughput before the bounce", (3,), "non-negative"),
         Field("beta", "throughput after the bounce", (3,), "non-negative"),

@@ -6,13 +6,19 @@
 
 Directions are local (z is the shading normal), unit, and leave the surface. Parameters are arrays whose
 last axis is one column per material, or one per lane after `take`. `one_sided` materials reflect on the side
-of the normal only; `delta` ones consist of Dirac lobes: eval and pdf are 0 there, and sample gives the
-scattered fraction as f and a probability as pdf, because the lobe's own 1/cos cancels the cosine.
+of the normal only.
+
+A Dirac lobe has no value in any given direction: eval and pdf leave it out, and sample gives the scattered
+fraction as f and a probability as pdf, flagged `delta`, because the lobe's own 1/cos cancels the cosine.
+A material may have lobes of both sorts; where it has nothing else, its class says `delta` too and no light is
+sampled there. pdf counts the probability of choosing the lobe.
 Adding a material: its file, and its name in ALL; the tests of all materials then hold for it too.
 """
 
 from tracer.bsdf.conductor import Conductor
 from tracer.bsdf.dielectric import Dielectric
 from tracer.bsdf.diffuse import Diffuse
+from tracer.bsdf.roughconductor import RoughConductor
+from tracer.bsdf.roughdielectric import RoughDielectric
 
-ALL = (Diffuse, Conductor, Dielectric)
+ALL = (Diffuse, Conductor, Dielectric, RoughConductor, RoughDielectric)

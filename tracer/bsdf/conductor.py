@@ -20,14 +20,18 @@ class Conductor(Material):
     eta: np.ndarray  # (3, M) real part of the index
     k: np.ndarray  # (3, M) imaginary part; inf for a perfect mirror
     specular_reflectance: np.ndarray  # (3, M) factor on top, 1 for a real metal
+    fresnel: str = "exact"  # or "schlick"
 
     delta = True
 
     def reflectance_at(self, cos):
         """Unpolarised reflectance (3, N) for the cosine of wo."""
-        perfect = np.isinf(self.k)
-        rs, rp = fresnel.conductor(cos, np.where(perfect, 1.0, self.eta), np.where(perfect, 0.0, self.k))
-        return np.where(perfect, 1.0, 0.5 * (rs + rp)).astype(cos.dtype) * self.specular_reflectance
+        mean = fresnel.conductor_mean(cos, self.eta, self.k, self.fresnel)
+        return mean.astype(cos.dtype) * self.specular_reflectance
+
+    def explain(self, wo, wi):
+        """F (3, N)."""
+        return {"F": self.reflectance_at(np.clip(wo[2], 0.0, 1.0))}
 
     def albedo(self):
         """Largest share of light that is sent back, (3, M)."""

@@ -20,9 +20,16 @@ class Dielectric(Material):
     eta: np.ndarray  # (M,) index behind the surface over index on the side of the normal
     specular_reflectance: np.ndarray  # (3, M) factor on the reflected light, 1 for real glass
     specular_transmittance: np.ndarray  # (3, M) factor on the transmitted light, 1 for clear glass
+    fresnel: str = "exact"  # or "schlick"
 
     delta = True
     one_sided = False
+    see_through = True
+
+    @property
+    def vanishes(self):
+        """Whether both sides have the same index and nothing is coloured: a surface nobody can see."""
+        return bool((self.eta == 1.0).all() and (self.specular_transmittance == 1.0).all())
 
     def albedo(self):
         """Largest share of light that is sent on, (3, M)."""
@@ -38,8 +45,12 @@ class Dielectric(Material):
 
     def reflectance_at(self, cos):
         """Unpolarised reflectance (3, N) for the (signed) cosine of wo."""
-        rs, rp, _ = fresnel.dielectric(np.minimum(np.abs(cos), 1.0), self.relative_eta(cos))
-        return (0.5 * (rs + rp)) * np.ones_like(self.specular_reflectance)
+        mean, _ = fresnel.dielectric_mean(np.minimum(np.abs(cos), 1.0), self.relative_eta(cos), self.fresnel)
+        return mean * np.ones_like(self.specular_reflectance)
+
+    def explain(self, wo, wi):
+        """F (3, N), and the index across the surface as eta."""
+        return {"F": self.reflectance_at(wo[2]), "eta": self.relative_eta(wo[2])}
 
     def eval(self, wo, wi):
         """0: Dirac lobes have no value in any given direction."""
@@ -52,8 +63,7 @@ class Dielectric(Material):
     def sample(self, wo, u):
         """The mirror direction with probability F, Snell's with 1 - F."""
         eta = self.relative_eta(wo[2])
-        rs, rp, cos_t = fresnel.dielectric(np.minimum(np.abs(wo[2]), 1.0), eta)
-        reflectance = 0.5 * (rs + rp)
+        reflectance, cos_t = fresnel.dielectric_mean(np.minimum(np.abs(wo[2]), 1.0), eta, self.fresnel)
         mirrored = u[0] < reflectance
         across = np.where(mirrored, -1.0, -1.0 / eta)
         up = np.where(mirrored, wo[2], -np.copysign(cos_t, wo[2]))

@@ -2,6 +2,8 @@
 
 The dielectric forms are rearranged so that nothing cancels: with e the relative index, c the cosine and
 g = e cos_t, c - g is computed as -(e-1)(e+1)/(c+g), and e^2 c - g as (e^2-1)((e^2+1)c^2-1)/(e^2 c+g).
+
+Materials ask for the mean of both polarisations, exact or by Schlick's approximation (Schlick 1994).
 """
 
 import numpy as np
@@ -45,3 +47,48 @@ def conductor(cos, eta, k):
     p_sum, p_part = cos2 * a2b2 + sin2 * sin2, s_part * sin2
     rp = rs * (p_sum - p_part) / (p_sum + p_part)
     return np.clip(rs, 0.0, 1.0), np.clip(rp, 0.0, 1.0)
+
+
+def dielectric_mean(cos, eta, formula="exact"):
+    """Unpolarised reflectance (N,) and the refracted cosine (N,); arguments as of dielectric."""
+    rs, rp, cos_t = dielectric(cos, eta)
+    if formula == "exact":
+        return 0.5 * (rs + rp), cos_t
+    total = (cos_t == 0.0) & (eta < 1.0)
+    wider = np.where(eta < 1.0, cos_t, cos)  # Schlick's angle is the one in the thinner medium
+    return np.where(total, 1.0, schlick(wider, head_on(eta, np.zeros_like(eta)))), cos_t
+
+
+def conductor_mean(cos, eta, k, formula="exact"):
+    """Unpolarised reflectance (C, N); arguments as conductor. k = inf is a perfect mirror: 1 everywhere."""
+    perfect = np.isinf(k)
+    eta, k = np.where(perfect, 1.0, eta), np.where(perfect, 0.0, k)
+    if formula == "exact":
+        rs, rp = conductor(cos, eta, k)
+        return np.where(perfect, 1.0, 0.5 * (rs + rp))
+    return np.where(perfect, 1.0, schlick(cos, head_on(eta, k)))
+
+
+def head_on(eta, k):
+    """Reflectance at normal incidence for the relative index eta + i k."""
+    return ((eta - 1.0) ** 2 + k * k) / ((eta + 1.0) ** 2 + k * k)
+
+
+def schlick(cos, head_on):
+    """R0 + (1 - R0) (1 - cos)^5."""
+    miss = 1.0 - cos
+    return head_on + (1.0 - head_on) * (miss * miss) * (miss * miss) * miss
+
+
+def diffuse_average(eta, formula="exact"):
+    """Share of diffuse light that a dielectric reflects from outside, 2 integral of F cos dcos, (M,) float64.
+
+    From inside it is 1 - (1 - this)/eta^2: as much light gets out along each ray as gets in. Gauss-Legendre
+    in t with cos = t^2 (what is not smooth lies at grazing angles); from the denser side, that same rule.
+    """
+    t, weight = np.polynomial.legendre.leggauss(400)
+    t, weight = 0.5 * t[:, None] + 0.5, 0.5 * weight[:, None]
+    dense = np.maximum(eta, 1.0 / eta).astype(np.float64)
+    reflectance, _ = dielectric_mean(t * t, np.broadcast_to(dense, (t.size, dense.size)), formula)
+    average = (4.0 * weight * t * t * t * reflectance).sum(axis=0)
+    return np.where(eta >= 1.0, average, 1.0 - (1.0 - average) / (dense * dense))

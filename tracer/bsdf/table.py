@@ -1,6 +1,7 @@
-"""All materials of a scene as one: each lane is answered by its own, one pass per kind of material."""
+"""All materials of a scene as one: each lane is answered by its own, one pass per kind of material.
 
-from dataclasses import fields, replace
+A kind is a class and its parameters that are not arrays, such as the distribution of normals.
+"""
 
 import numpy as np
 
@@ -15,13 +16,13 @@ class BsdfTable:
     """
 
     def __init__(self, materials, dtype, hemisphere):
-        kinds = list(dict.fromkeys(type(m) for m in materials))
-        kind = [kinds.index(type(m)) for m in materials]
+        materials = [m.sampling(hemisphere) for m in materials]
+        kinds = list(dict.fromkeys(m.kind for m in materials))
+        kind = [kinds.index(m.kind) for m in materials]
         self._kind_of = np.array(kind, np.int32)
         self._row_of = np.array([kind[:i].count(k) for i, k in enumerate(kind)], np.int32)
-        self._kinds = [
-            _side_by_side([m for m in materials if type(m) is k], hemisphere).astype(dtype) for k in kinds
-        ]
+        same = [[m for m in materials if m.kind == k] for k in kinds]
+        self._kinds = [first.beside(others).astype(dtype) for first, *others in same]
         self._delta_of = np.array([m.delta for m in materials], bool)
         self._one_sided_of = np.array([m.one_sided for m in materials], bool)
         self._black_of = np.array([not np.any(m.albedo() > 0.0) for m in materials], bool)
@@ -30,7 +31,7 @@ class BsdfTable:
         self._plain = bool(self._one_sided_of.all() and not self._black_of.any())
 
     def is_delta(self, material):
-        """Whether each material consists of Dirac lobes, for (N,) material numbers."""
+        """Whether each material has nothing but Dirac lobes, for (N,) material numbers."""
         return self._delta_of.take(material)
 
     def reflects(self, material, wo):
@@ -53,14 +54,12 @@ class BsdfTable:
         """A direction per lane, from u (3, N), as a Sample."""
         return self._answer(material, lambda m, lanes: m.sample(wo[:, lanes], u[:, lanes]))
 
-    def property(self, material, name, *columns):
-        """A named method of the lanes' materials on (N,) columns; NaN (3, N) where a kind has none."""
+    def property(self, material, name, wo, wi):
+        """A named quantity behind f (see Material.explain), (3, N); NaN where a material has none."""
 
         def answer(m, lanes):
-            n = columns[0][lanes].size
-            if not hasattr(m, name):
-                return np.full((3, n), np.nan)
-            return np.broadcast_to(getattr(m, name)(*(c[lanes] for c in columns)), (3, n))
+            to, at = wo[:, lanes], wi[:, lanes]
+            return np.broadcast_to(m.explain(to, at).get(name, np.nan), to.shape).astype(wo.dtype)
 
         return self._answer(material, answer)
 
@@ -86,19 +85,6 @@ class BsdfTable:
         if np.count_nonzero(self._kind_of == number) == 1:
             return kind
         return kind.take(self._row_of.take(material))
-
-
-def _side_by_side(materials, hemisphere):
-    """Materials of one kind as one object with a parameter column each."""
-    first = materials[0]
-    joined = {
-        f.name: np.concatenate([getattr(m, f.name) for m in materials], axis=-1)
-        for f in fields(first)
-        if isinstance(getattr(first, f.name), np.ndarray)
-    }
-    if hasattr(first, "hemisphere"):
-        joined["hemisphere"] = hemisphere
-    return replace(first, **joined)
 
 
 def _scatter(where, parts, n):
