@@ -150,7 +150,7 @@ def test_the_two_lobes_of_glass_are_chosen_with_their_probabilities(suite_seed, 
     F = glass.reflectance_at(wo[2, :1])[0, 0]
     assert np.allclose(sample.pdf, np.where(mirrored, F, 1 - F), rtol=1e-12)
     assert chi_square([mirrored.sum(), n - mirrored.sum()], [n * F, n * (1 - F)]) > sidak(5)
-    wrong = 1.05 * F  # the broken twin: a Fresnel reflectance 5 % too high
+    wrong = 1.1 * F  # the broken twin: a Fresnel reflectance 10 % too high
     assert tilt == 0.0 or chi_square(
         [mirrored.sum(), n - mirrored.sum()], [n * wrong, n * (1 - wrong)]
     ) < sidak(5)
