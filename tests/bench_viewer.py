@@ -5,6 +5,7 @@ Prints medians and the slowest of 20 each. `python tests/bench_viewer.py [SCENE]
 
 import statistics
 import sys
+from functools import partial
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -35,7 +36,7 @@ WATCH = """
   for (const kind of ["pointerdown", "keydown"]) window.addEventListener(kind, begin, true);
 }
 """
-# The time from the last input until both have changed; 0 where that does not happen (nothing new is in sight).
+# The time from the last input until both have changed; 0 where that does not happen (nothing new in sight).
 ARM = """
 () => {
   const picture = window.drawn(), place = window.where(), end = performance.now() + 5000;
@@ -67,7 +68,7 @@ def picks(page):
         x = box["x"] + box["width"] * (0.15 + 0.7 * (k * 7 % ROUNDS) / ROUNDS)
         y = box["y"] + box["height"] * (0.25 + 0.6 * (k * 3 % ROUNDS) / ROUNDS)
         page.mouse.move(x, y)
-        yield timed(page, lambda x=x, y=y: page.mouse.click(x, y))
+        yield timed(page, partial(page.mouse.click, x, y))
 
 
 def steps(page):
@@ -79,7 +80,7 @@ def steps(page):
     for _ in range(ROUNDS):
         forward = at == 0 or (forward and at < last)
         at += 1 if forward else -1
-        yield timed(page, lambda: page.keyboard.press("ArrowRight" if forward else "ArrowLeft"))
+        yield timed(page, partial(page.keyboard.press, "ArrowRight" if forward else "ArrowLeft"))
 
 
 def measure(chromium, words):
@@ -110,9 +111,8 @@ def main():
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     times = measure(chromium, sys.argv[1:] or ["cornell_unit"])
     for name, values in times.items():
-        print(
-            f"{name}: median {statistics.median(values):.0f} ms, slowest {max(values):.0f} ms, limit {LIMITS[name]} ms"
-        )
+        middle, slowest = statistics.median(values), max(values)
+        print(f"{name}: median {middle:.0f} ms, slowest {slowest:.0f} ms, limit {LIMITS[name]} ms")
     return int(any(statistics.median(v) > LIMITS[k] for k, v in times.items()))
 
 

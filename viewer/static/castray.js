@@ -233,6 +233,15 @@
       const hush = (event) => { if (!typing(event)) event.stopPropagation(); }; // vtk.js binds w, s and r
       const follow = () => { const hash = window.location.hash.slice(1); if (mine() && hash && hash !== props.link) trame.trigger("open", [hash]); };
       const write = () => { if (mine()) window.history.replaceState(null, "", "#" + props.link); };
+      // a new address and a scroll cost the browser a picture each: the first can wait, the second is rarely needed
+      let writing = 0;
+      const writeSoon = () => { clearTimeout(writing); writing = setTimeout(write, 150); };
+      function reveal(element) {
+        const box = element.getBoundingClientRect(), frame = element.closest(".events, .track").getBoundingClientRect();
+        const hidden = box.top < frame.top + (element.tagName === "TR" ? 24 : 0) || box.bottom > frame.bottom || box.left < frame.left || box.right > frame.right + 1;
+        if (hidden) element.scrollIntoView({ block: "nearest", inline: "nearest" });
+      }
+      const show = () => { document.querySelectorAll(".events [aria-current], .track [aria-current]").forEach(reveal); };
       onMounted(async () => {
         window.addEventListener("keydown", key, true);
         for (const kind of ["keypress", "keyup"]) window.addEventListener(kind, hush, true);
@@ -241,8 +250,7 @@
         await trame.trigger("take", [self, asked]);
         document.documentElement.dataset.ready = "true";
       });
-      const show = () => document.querySelectorAll("[aria-current]").forEach((e) => e.scrollIntoView({ block: "nearest", inline: "nearest" }));
-      watch(() => [props.link, props.owner], () => { write(); show(); }, { flush: "post" });
+      watch(() => [props.link, props.owner], () => { writeSoon(); show(); }, { flush: "post" });
       return { mine, take };
     },
     template: `<slot :mine="mine()" :take="take"></slot>`,
