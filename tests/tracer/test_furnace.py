@@ -10,6 +10,7 @@ and the share of samples above t falls only as t^-3/2. What a mean of N samples 
 misses is then about 3 M / N; 5 M / N is allowed on top. In the round room there is no such tail.
 """
 
+from dataclasses import fields
 from functools import partial
 
 import checks
@@ -23,6 +24,8 @@ from lessons import zoo
 from tracer import Settings
 
 DEPTHS = (1, 2, 3, 8, 50)
+
+WAYS = next(f.metadata["choices"] for f in fields(Settings) if f.name == "light_sampling")
 
 pytestmark = pytest.mark.statistical
 
@@ -67,6 +70,8 @@ def test_the_furnace_has_its_radiance(suite_seed, integrator, max_depth, precisi
         {"roulette": "0.8"},
         {"roulette": "off"},
         {"jitter": False},
+        *({"light_sampling": way, "integrator": "direct"} for way in WAYS),
+        *({"light_sampling": way, "strategy": "mis"} for way in WAYS),
     ],
     ids=lambda options: "-".join(map(str, options.values())),
 )

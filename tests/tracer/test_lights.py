@@ -36,7 +36,7 @@ def room(*lamps):
 
 def sampled(scene, seed, n=N, precision=64, p=None):
     """Light samples for receivers far away, or at p (3,)."""
-    scene = scene.at(Settings(precision=precision))
+    scene = scene.at(Settings(precision=precision, light_sampling="area"))
     bits = {32: 24, 64: 32}[precision]
     u = (np.random.default_rng(seed).integers(0, 2**bits, (3, n)) * 2.0**-bits).astype(scene.dtype)
     p = np.array([3.0, 40.0, 20.0] if p is None else p)
@@ -125,7 +125,7 @@ def test_a_bounce_that_finds_a_lamp_names_the_density_of_the_light_sample(suite_
 @pytest.mark.statistical
 def test_a_root_in_the_choice_of_the_face_is_caught(suite_seed):
     """The broken twin, from a framework that thousands have used: sqrt(u) where u chooses among areas."""
-    scene = room((LAMPS["tall box"], 1.0)).at(Settings(precision=64))
+    scene = room((LAMPS["tall box"], 1.0)).at(Settings(precision=64, light_sampling="area"))
     u = np.random.default_rng(suite_seed).random((3, N))
     light = scene.sample_light(np.full((3, N), 40.0), np.stack((np.sqrt(u[0]), u[1], u[2])))
     area = scene.shapes[0].area()
