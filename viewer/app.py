@@ -86,6 +86,7 @@ def _run(session, port, open_browser):
 def _listen(server, port):
     """Serve until the end. The command line is not trame's to read."""
     options = server.cli.parse_known_args([])
+    options[0].nowscompress = True  # the way to a browser on the same machine is not what takes time
     server.cli.parse_known_args = lambda: options
     try:
         server.start(

@@ -9,6 +9,7 @@ from viewer.numerals import several, short, tex
 from viewer.session import throughput
 
 CHANNELS = ("R", "G", "B")
+MOST_TERMS = 5
 WORTH_SAYING = (
     1e-4  # relative difference above which the formula's own result is shown beside the recorded one
 )
@@ -53,14 +54,8 @@ def formulas(path, index, settings, say):
         event.values, throughput(path.events, index)
     )
     if product is None:
-        return {
-            "symbolic": _special(path, event),
-            "rows": [],
-            "legend": [],
-            "result": "",
-            "differs": "",
-            "weight": None,
-        }
+        plain = {"legend": [], "result": "", "differs": "", "weight": None}
+        return {"symbolic": _special(path, event), "rows": _sum_rows(path, event), **plain}
     return {
         "symbolic": mathml(_symbolic(product)),
         "rows": [{"channel": c, "math": mathml(_numeric(product, k))} for k, c in enumerate(CHANNELS)],
@@ -147,11 +142,26 @@ def _special(path, event):
     if event.kind.name == "roulette":
         v = event.values
         return mathml(rf"u = {tex(v['u'])} \geq q = {tex(v['probability'])}")
-    given = [e.step for e in path.events if np.any(np.asarray(e.values.get("contribution", 0)) > 0)]
-    terms = " + ".join(rf"\Delta L_{{{step}}}" for step in given[:6]) + (
-        r" + \cdots" if len(given) > 6 else ""
-    )
-    return mathml("L = " + (terms or "0"))
+    terms = [rf"\Delta L_{{{e.step}}}" for e in _giving(path)]
+    return mathml("L = " + _some(terms))
+
+
+def _sum_rows(path, event):
+    """At the end: what every contribution added, one row a channel."""
+    if event.kind.name != "end":
+        return []
+    given, total = _giving(path), event.values["radiance"]
+    sums = [_some([tex(e.values["contribution"][k]) for e in given]) for k in range(3)]
+    return [{"channel": c, "math": mathml(f"{sums[k]} = {tex(total[k])}")} for k, c in enumerate(CHANNELS)]
+
+
+def _giving(path):
+    return [e for e in path.events if np.any(e.values.get("contribution", 0) > 0)]
+
+
+def _some(terms):
+    """A sum of at most MOST_TERMS terms."""
+    return " + ".join(terms[:MOST_TERMS] + [r"\cdots"] * (len(terms) > MOST_TERMS)) or "0"
 
 
 def _weight(event, settings, say):

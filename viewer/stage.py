@@ -106,10 +106,12 @@ class Surface:
 
     def _turn_outwards(self):
         """Turn the faces of a closed convex solid outwards; False, and nothing done, where it is none."""
-        if np.ptp(self.vertices, axis=0).min() == 0 or len(self.faces) > FEW:
-            return bool(np.all(self._lean(self.faces, self.vertices.mean(axis=0)) < 0))
-        faces = self._turned(self.vertices.mean(axis=0))[:, ::-1]
-        slack = 1e-6 * np.ptp(self.vertices) ** 3
+        centre, slack = self.vertices.mean(axis=0), 1e-6 * np.ptp(self.vertices) ** 3
+        if np.ptp(self.vertices, axis=0).min() == 0:
+            return False
+        if len(self.faces) > FEW:
+            return bool(self._lean(self.faces, centre).max() <= slack)
+        faces = self._turned(centre)[:, ::-1]
         if max(self._lean(faces, v).max() for v in self.vertices) > slack:
             return False
         self.faces = faces
