@@ -7,8 +7,8 @@ import numpy as np
 
 from tracer.bsdf.table import BsdfTable
 from tracer.frame import dot, length
-from tracer.light.area import AreaLights, ShiningFace
-from tracer.shape.mesh import Mesh
+from tracer.light.faces import shining_faces
+from tracer.light.table import Lights
 from tracer.shape.rays import Rays, error_bound, leave
 from tracer.shape.sphere import Sphere
 
@@ -54,11 +54,12 @@ class Hit(NamedTuple):
 class Scene:
     """A definition made ready for one precision and one way of sampling.
 
-    settings: a Settings, for its precision and hemisphere; `at` gives the scene for others.
+    `at` gives the scene for other settings.
     """
 
-    def __init__(self, definition, dtype=np.float32, hemisphere="cosine"):
-        self.definition, self.dtype, self.hemisphere = definition, dtype, hemisphere
+    def __init__(self, definition, dtype=np.float32, hemisphere="cosine", light_sampling="solid_angle"):
+        self.definition, self.dtype = definition, dtype
+        self.hemisphere, self.light_sampling = hemisphere, light_sampling
         self.name, self.camera = definition.name, definition.camera
         self.width, self.height = definition.width, definition.height
         self.shapes = tuple(s.shape for s in definition.surfaces)
@@ -74,9 +75,9 @@ class Scene:
         self._others = {}
 
     def at(self, settings):
-        """The same scene for these settings' precision and hemisphere."""
-        wanted = settings.dtype, settings.hemisphere
-        if wanted == (self.dtype, self.hemisphere):
+        """The same scene for these settings' precision and ways of sampling."""
+        wanted = settings.dtype, settings.hemisphere, settings.light_sampling
+        if wanted == (self.dtype, self.hemisphere, self.light_sampling):
             return self
         if wanted not in self._others:
             self._others[wanted] = Scene(self.definition, *wanted)
@@ -117,25 +118,13 @@ class Scene:
         self.light_of = light_of_shape[self.shape_of]
         self.lights = None
         if shining:
-            faces = [f for light, k in enumerate(shining) for f in self._shining_faces(light, k)]
+            faces = [
+                face
+                for light, k in enumerate(shining)
+                for face in shining_faces(light, self.shapes[k], int(self.first[k]))
+            ]
             radiance = np.stack([self.definition.surfaces[k].radiance for k in shining], axis=1)
-            self.lights = AreaLights(faces, radiance, self.dtype)
-
-    def _shining_faces(self, light, k):
-        shape, first = self.shapes[k], int(self.first[k])
-        area = shape.area()
-        if isinstance(shape, Sphere):
-            side = -1.0 if shape.flip_normals else 1.0
-            radius, zero = np.array([shape.radius, 0, 0]), np.zeros(3)
-            yield ShiningFace(
-                light, first, "sphere", shape.center, radius, zero, area[0], np.array([side, 0, 0])
-            )
-            return
-        kind = "triangle" if isinstance(shape, Mesh) else "quad"
-        corner, e1, e2 = shape.corners() if kind == "triangle" else shape.parallelograms()
-        n, _ = shape.planes()
-        for j in range(shape.primitives):
-            yield ShiningFace(light, first + j, kind, corner[:, j], e1[:, j], e2[:, j], area[j], n[:, j])
+            self.lights = Lights(faces, radiance, self.dtype, self.light_sampling)
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
@@ -203,16 +192,17 @@ class Scene:
         """Where a ray that leaves a hit along wi (3, N) starts, (3, N)."""
         return leave(hit.p, hit.ng, hit.bound, wi)
 
-    def emission(self, hit):
+    def emission(self, hit, vertex):
         """Radiance (3, N) that each hit surface sends along wo, and the density with which light sampling
-        from the start of the ray would have found it, (N,) in sr^-1."""
+        from the vertex (3, N) where the ray came from would have found it, (N,) in sr^-1."""
         Le, pdf = np.zeros_like(hit.p), np.zeros_like(hit.t)
         lanes = np.flatnonzero((hit.light >= 0) & hit.front)
         if lanes.size:
-            light = hit.light[lanes]
-            cos = dot(hit.ng[:, lanes], hit.wo[:, lanes])
-            Le[:, lanes] = self.lights.radiance[:, light]
-            pdf[lanes] = self.lights.pdf(light, cos, hit.t[lanes])
+            area = self.lights.area
+            Le[:, lanes] = area.radiance.take(hit.light[lanes], axis=1)
+            pdf[lanes] = area.pdf(
+                hit.primitive[lanes], *(v.take(lanes, axis=1) for v in (vertex, hit.p, hit.ng))
+            )
         return Le, pdf
 
     def sample_light(self, p, u):

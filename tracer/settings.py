@@ -45,7 +45,11 @@ class Settings:
         "cosine", "how a diffuse surface chooses directions", choices=("cosine", "uniform")
     )
     roulette: str = option("auto", "Russian roulette: auto, off, or one survival probability in (0, 1]")
-    light_sampling: str = option("area", "how a point on a light is chosen", choices=("area",))
+    light_sampling: str = option(
+        "solid_angle",
+        "how a point on a lamp is chosen: uniform as the receiver sees it (rectangles, spheres), or by area",
+        choices=("solid_angle", "area"),
+    )
     sampler: str = option("independent", "where random numbers come from", choices=("independent",))
     precision: int = option(32, "bits of the floating point numbers", choices=(32, 64))
     jitter: bool = option(True, "spread samples over the pixel (off: all through its centre)")

@@ -19,7 +19,7 @@ def direct(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths)
 
         # Le: the surface itself shines, and no light sample has counted it yet
-        Le, pdf_light = scene.emission(hit)
+        Le, pdf_light = scene.emission(hit, paths.vertex)
         w = steps.emission_weight(settings, "light", paths.pdf_bsdf, pdf_light)
         contribution = paths.beta * Le * w
         paths = paths._replace(L=paths.L + contribution)

@@ -18,7 +18,7 @@ def path(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths)
 
         # Le: the surface itself shines, weighted against a light sample that would have found it
-        Le, pdf_light = scene.emission(hit)
+        Le, pdf_light = scene.emission(hit, paths.vertex)
         w = steps.emission_weight(settings, strategy, paths.pdf_bsdf, pdf_light)
         contribution = paths.beta * Le * w
         paths = paths._replace(L=paths.L + contribution)

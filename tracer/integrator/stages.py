@@ -143,7 +143,7 @@ def go_on(scene, wave, paths, hit, frame, wo):
     if played.size:
         paths, hit, wi = yield from _play(wave, paths, hit, wi, q, played)
     o, d = steps.next_ray(scene, hit, wi)
-    return paths._replace(depth=paths.depth + 1, o=o, d=d, source=hit.primitive)
+    return paths._replace(depth=paths.depth + 1, o=o, d=d, vertex=hit.p, source=hit.primitive)
 
 
 def _play(wave, paths, hit, wi, q, played):

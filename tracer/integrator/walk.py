@@ -16,7 +16,7 @@ def walk(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths)
 
         # Le: the surface itself shines
-        Le, pdf_light = scene.emission(hit)
+        Le, pdf_light = scene.emission(hit, paths.vertex)
         w = wave.steps.emission_weight(settings, "bsdf", paths.pdf_bsdf, pdf_light)
         contribution = paths.beta * Le * w
         paths = paths._replace(L=paths.L + contribution)

@@ -20,6 +20,7 @@ class Paths(NamedTuple):
     depth: np.ndarray  # (N,) bounces so far: 0 until the first hit is left
     o: np.ndarray  # (3, N) origin of the ray
     d: np.ndarray  # (3, N) its unit direction
+    vertex: np.ndarray  # (3, N) where it left from: o is that, moved off the surface
     source: np.ndarray  # (N,) primitive the ray starts on, -1 at the camera
     beta: np.ndarray  # (3, N) throughput
     pdf_bsdf: np.ndarray  # (N,) density of d in sr^-1; inf from the camera and after a Dirac lobe
@@ -60,7 +61,7 @@ class Wave:
         lane = np.arange(n, dtype=np.int32)
         yield CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)
         paths = Paths(
-            lane, pixel, self.sample, depth, o, d,
+            lane, pixel, self.sample, depth, o, d, o,
             np.full(n, -1, np.int32), beta, np.full(n, np.inf, dtype), np.zeros((3, n), dtype),
         )  # fmt: skip
         if self.settings.max_depth == 0:

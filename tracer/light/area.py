@@ -1,8 +1,8 @@
 """Surfaces that shine: points on them, chosen for a receiver, with the density of the direction.
 
-Flat faces (rectangles, faces of cubes, triangles) are one table, chosen with probability proportional to
-power: light first by luminance times area, then face by area. The densities returned are per solid angle:
-pick times pdf_area times distance^2 / cos_light (Veach 1997, 8.2).
+The faces (rectangles, faces of cubes, triangles, spheres) are one table. On the face a point is uniform over
+the solid angle that the receiver sees (flat faces with right angles, spheres from outside), or over its area:
+then the density per solid angle is pdf_area times distance^2 / cos_light (Veach 1997, 8.2).
 """
 
 from typing import NamedTuple
@@ -10,112 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer import warp
-from tracer.events import TECHNIQUES
 from tracer.frame import dot
+from tracer.light import rectangle, sphere
+from tracer.light.sample import AREA, CONE, SOLID_ANGLE, LightSample
 
-_LUMINANCE = np.array([0.212671, 0.715160, 0.072169])  # of linear sRGB primaries (ITU-R BT.709)
-
-
-class LightSample(NamedTuple):
-    """One point on a light per lane, as seen from the receiver."""
-
-    light: np.ndarray  # (N,) number of the light
-    primitive: np.ndarray  # (N,) number of the primitive q lies on
-    pick: np.ndarray  # (N,) probability of choosing the light
-    technique: np.ndarray  # (N,) index into events.TECHNIQUES
-    q: np.ndarray  # (3, N) point on the light
-    nq: np.ndarray  # (3, N) normal there
-    wi: np.ndarray  # (3, N) unit direction to q
-    distance: np.ndarray  # (N,)
-    Le: np.ndarray  # (3, N) radiance back along wi, 0 behind the light
-    pdf: np.ndarray  # (N,) density of wi in sr^-1, choice of the light included; 0 behind the light
-
-    def take(self, lanes):
-        """The samples of some lanes."""
-        return LightSample(*(column.take(lanes, axis=-1) for column in self))
-
-
-class AreaLights:
-    """All shining faces of a scene.
-
-    faces: tuple of (light number, primitive number, kind, corner (3,), e1 (3,), e2 (3,), area, normal (3,))
-    with kind "quad", "triangle" or "sphere" (corner = centre, e1[0] = radius).
-    radiance: (3, L) of each light.
-    """
-
-    def __init__(self, faces, radiance, dtype):
-        self.radiance = radiance.astype(dtype)
-        light = np.array([f.light for f in faces])
-        area = np.array([f.area for f in faces])
-        total = np.bincount(light, area, radiance.shape[1])
-        power = _LUMINANCE @ radiance * total
-        pick = power / power.sum()
-        chance = pick[light] * area / total[light]
-        cdf = np.cumsum(chance)
-        self.count = len(faces)
-        self._cdf = (cdf / cdf[-1])[:-1].astype(dtype)
-        self._low = np.concatenate(([0.0], (cdf / cdf[-1])[:-1])).astype(dtype)
-        self._chance = chance.astype(dtype)
-        self._light = light.astype(np.int32)
-        self._primitive = np.array([f.primitive for f in faces], np.int32)
-        self._sphere = np.array([f.kind == "sphere" for f in faces])
-        self._triangle = np.array([f.kind == "triangle" for f in faces])
-        self._corner, self._e1, self._e2, self._n = (
-            np.stack([getattr(f, name) for f in faces], axis=1).astype(dtype)
-            for name in ("corner", "e1", "e2", "n")
-        )
-        self.pick = pick.astype(dtype)
-        # Density of q per area: a light's faces together are one light, so it does not depend on the face.
-        self.pdf_area = np.where(power > 0.0, pick / np.where(total > 0.0, total, 1.0), 0.0).astype(dtype)
-
-    def sample(self, p, u):
-        """A point on a light for each receiver p (3, N), from u (3, N)."""
-        if self.count == 1:
-            face = np.zeros(p.shape[1], np.int32)
-            q, nq = self._points(slice(0, 1), u[1], u[2])
-            nq = np.broadcast_to(nq, p.shape)
-        else:
-            face = np.searchsorted(self._cdf, u[0], side="right").astype(np.int32)
-            q, nq = self._points(face, u[1], u[2])
-        light = self._light.take(face)
-        to_light = q - p
-        square = dot(to_light, to_light)
-        distance = np.sqrt(square)
-        wi = to_light / distance
-        cos = -dot(nq, wi)
-        facing = cos > 0.0
-        pdf = self.pdf_area.take(light) * square / np.abs(cos) * facing
-        return LightSample(
-            light,
-            self._primitive.take(face),
-            self.pick.take(light),
-            np.broadcast_to(np.int8(TECHNIQUES.index("area")), light.shape),
-            q,
-            nq,
-            wi,
-            distance,
-            self.radiance.take(light, axis=1) * facing,
-            np.where(facing, pdf, 0.0),
-        )
-
-    def pdf(self, light, cos, distance):
-        """Density in sr^-1 with which sample gives a direction that meets `light` at that cosine, (N,)."""
-        return self.pdf_area.take(light) * distance * distance / cos
-
-    def _points(self, face, u, v):
-        """Points (3, N) uniform on the faces' areas and the normals there."""
-        if self._triangle.any():
-            b = warp.uniform_triangle(np.stack((u, v)))
-            triangle = self._triangle[face]
-            u, v = np.where(triangle, b[0], u), np.where(triangle, b[1], v)
-        corner, e1, e2, n = (table[:, face] for table in (self._corner, self._e1, self._e2, self._n))
-        q = corner + u * e1 + v * e2
-        sphere = self._sphere[face]
-        if not sphere.any():
-            return q, n
-        around = warp.uniform_sphere(np.stack((u, v)))
-        on_sphere = corner + e1[0] * around
-        return np.where(sphere, on_sphere, q), np.where(sphere, n[0] * around, n)
+_RIGHT_ANGLE = 1e-9  # cosine between two sides that is only rounding
 
 
 class ShiningFace(NamedTuple):
@@ -129,3 +28,171 @@ class ShiningFace(NamedTuple):
     e2: np.ndarray  # (3,) the other side
     area: float
     n: np.ndarray  # (3,) the normal; +1 or -1 in [0] for a sphere that shines outwards or inwards
+
+    @property
+    def best(self):
+        """The technique that suits the face: a sheared quad has no rectangle's solid angle, and the inside
+        of a sphere is all around."""
+        if self.kind == "sphere":
+            return CONE if self.n[0] > 0.0 else AREA
+        sides = np.linalg.norm(self.e1) * np.linalg.norm(self.e2)
+        square = self.kind == "quad" and abs(self.e1 @ self.e2) <= _RIGHT_ANGLE * sides
+        return SOLID_ANGLE if square else AREA
+
+
+class AreaLights:
+    """All shining faces of a scene.
+
+    faces: tuple of ShiningFace. chance: (F,) probability of each. radiance: (3, L) and pick (L,) of each
+    light. light_sampling: as in the Settings.
+    """
+
+    def __init__(self, faces, chance, radiance, pick, dtype, light_sampling):
+        self.radiance, self._pick = radiance.astype(dtype), pick.astype(dtype)
+        self.count = len(faces)
+        self._light = np.array([f.light for f in faces], np.int32)
+        self._primitive = np.array([f.primitive for f in faces], np.int32)
+        self._face_of = np.zeros(self._primitive.max() + 1, np.int32)
+        self._face_of[self._primitive] = np.arange(self.count)
+        self._chance = chance.astype(dtype)
+        self._pdf_area = (1.0 / np.array([f.area for f in faces])).astype(dtype)
+        self._triangle = np.array([f.kind == "triangle" for f in faces])
+        self._sphere = np.array([f.kind == "sphere" for f in faces])
+        corner, e1, e2, n = (
+            np.stack([getattr(f, name) for f in faces], axis=1) for name in ("corner", "e1", "e2", "n")
+        )
+        self._size = np.stack((np.linalg.norm(e1, axis=0), np.linalg.norm(e2, axis=0))).astype(dtype)
+        whole = np.where(self._size > 0.0, self._size, 1.0)
+        self._x, self._y = (e1 / whole[0]).astype(dtype), (e2 / whole[1]).astype(dtype)
+        self._corner, self._e1, self._e2, self._n = (v.astype(dtype) for v in (corner, e1, e2, n))
+        # How far a point on a face may be off it: rounding of its own and of the face's coordinates.
+        reach = np.abs(corner).sum(axis=0) + np.abs(e1).sum(axis=0) + np.abs(e2).sum(axis=0)
+        self._slack = (16.0 * np.finfo(dtype).eps * reach).astype(dtype)
+        self._least = dtype(rectangle.LEAST[np.dtype(dtype)])
+        chosen = [f.best if light_sampling == "solid_angle" else AREA for f in faces]
+        self._way = np.array(chosen, np.int8)
+        self._only = self._way[0] if (self._way == self._way[0]).all() else None
+
+    def sample(self, p, u, face):
+        """A point on each chosen face (N,) for its receiver p (3, N), from u (2, N), as a LightSample."""
+        technique, q, nq, density = self._drawn(p, u, face)
+        to_light = q - p
+        square = dot(to_light, to_light)
+        distance = np.sqrt(square)
+        wi = to_light / distance
+        by_area = technique == AREA
+        if by_area.any():
+            cos = -dot(nq, wi)
+            density = np.where(by_area, density * (square / np.abs(cos)) * (cos > 0.0), density)
+            density = np.where(by_area & ~(cos > 0.0), 0.0, density)
+        light = self._light.take(face)
+        return LightSample(
+            light,
+            self._primitive.take(face),
+            self._pick.take(light),
+            technique,
+            q,
+            np.broadcast_to(nq, p.shape),
+            wi,
+            distance,
+            self.radiance.take(light, axis=1) * (density > 0.0),
+            density * self._chance.take(face),
+        )
+
+    def pdf(self, primitive, p, q, n):
+        """Density in sr^-1 with which sample, from p (3, N), gives the direction to q on `primitive` (N,),
+        whose normal there is n."""
+        face = self._face_of.take(primitive)
+        to_light = q - p
+        square = dot(to_light, to_light)
+        density = self._pdf_area.take(face) * square * np.sqrt(square) / np.abs(dot(n, to_light))
+        way = self._way.take(face)
+        for technique, seen in ((SOLID_ANGLE, self._solid_angle), (CONE, self._cone)):
+            lanes = np.flatnonzero(way == technique)
+            if lanes.size:
+                omega = seen(p[:, lanes], face[lanes])
+                usable = omega > 0.0
+                density[lanes] = np.where(usable, 1.0 / omega, density[lanes])
+        return density * self._chance.take(face)
+
+    def _drawn(self, p, u, face):
+        """technique (N,), q and nq (3, N), density (N,): per m^2 where the technique is AREA."""
+        if self._only is not None:
+            # One face is broadcast instead of repeated.
+            return self._draw[self._only](self, p, u, slice(0, 1) if self.count == 1 else face)
+        way = self._way.take(face)
+        parts = []
+        for technique, draw in self._draw.items():
+            lanes = np.flatnonzero(way == technique)
+            if lanes.size:
+                parts.append((lanes, draw(self, p[:, lanes], u[:, lanes], face[lanes])))
+        return scattered(parts, p.shape[1])
+
+    def _by_area(self, p, u, face):
+        """Points uniform on the faces' areas."""
+        u, v = u
+        n = p.shape[1]
+        if self._triangle.any():
+            b = warp.uniform_triangle(np.stack((u, v)))
+            triangle = self._triangle[face]
+            u, v = np.where(triangle, b[0], u), np.where(triangle, b[1], v)
+        corner, e1, e2, nq = (table[:, face] for table in (self._corner, self._e1, self._e2, self._n))
+        q, density = corner + u * e1 + v * e2, np.broadcast_to(self._pdf_area[face], n)
+        if self._sphere.any():
+            sphere_here = self._sphere[face]
+            around = warp.uniform_sphere(np.stack((u, v)))
+            out = p - corner
+            # A sphere that shines inwards is dark from outside, though its far side would face the receiver.
+            hidden = sphere_here & (nq[0] < 0.0) & (np.sqrt(dot(out, out)) > e1[0] + self._slack[face])
+            q = np.where(sphere_here, corner + e1[0] * around, q)
+            nq = np.where(sphere_here, nq[0] * around, nq)
+            density = np.where(hidden, 0.0, density).astype(p.dtype)
+        return np.broadcast_to(AREA, n), q, nq, density
+
+    def _by_solid_angle(self, p, u, face):
+        """Points of rectangles, uniform over what the receivers see of them; by area where that is tiny."""
+        seen = self._seen(p, face)
+        omega = rectangle.solid_angle(seen)
+        usable = omega > self._least
+        s, t = rectangle.uniform(seen, omega, u[0], u[1])
+        s, t = np.where(usable, s, u[0]), np.where(usable, t, u[1])
+        q = self._corner[:, face] + s * self._e1[:, face] + t * self._e2[:, face]
+        density = np.where(usable, 1.0 / omega, self._pdf_area[face])
+        return np.where(usable, SOLID_ANGLE, AREA), q, self._n[:, face], density
+
+    def _by_cone(self, p, u, face):
+        """Points of spheres in the cone in which they are seen; by area from inside."""
+        _, q, nq, density = self._by_area(p, u, face)
+        q_cone, n_cone, least = sphere.uniform_cone(p, self._corner[:, face], self._e1[0, face], u)
+        usable = least > 0.0
+        density = np.where(usable, warp.uniform_cone_pdf(least), density).astype(p.dtype)
+        q, nq = np.where(usable, q_cone, q), np.where(usable, n_cone, nq)
+        return np.where(usable, CONE, AREA), q, nq, density
+
+    _draw = {AREA: _by_area, SOLID_ANGLE: _by_solid_angle, CONE: _by_cone}
+
+    def _seen(self, p, face):
+        x, y, n = self._x[:, face], self._y[:, face], self._n[:, face]
+        seen = rectangle.seen_from(p, self._corner[:, face], x, y, n, *self._size[:, face])
+        # What lies in the rectangle's plane but for rounding, the rectangle itself above all, sees nothing.
+        return seen._replace(z=seen.z * (seen.z > self._slack[face]))
+
+    def _solid_angle(self, p, face):
+        """Solid angle (N,) of rectangles that are sampled by it, 0 of the others."""
+        omega = rectangle.solid_angle(self._seen(p, face))
+        return np.where(omega > self._least, omega, 0.0)
+
+    def _cone(self, p, face):
+        """Solid angle (N,) of spheres that are sampled by their cone, 0 of the others."""
+        out = p - self._corner[:, face]
+        return (2.0 * np.pi) * sphere.one_minus_cos(self._e1[0, face], np.sqrt(dot(out, out)))
+
+
+def scattered(parts, n):
+    """Columns of n lanes from parts: pairs of lanes and the columns there."""
+    first = parts[0][1]
+    columns = [np.empty((*column.shape[:-1], n), column.dtype) for column in first]
+    for lanes, values in parts:
+        for column, value in zip(columns, values, strict=True):
+            column[..., lanes] = value
+    return columns
