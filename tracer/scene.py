@@ -89,11 +89,12 @@ class Scene:
         self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
         self._reach = np.abs(self._c)  # what enters a primitive's error bound beside the point itself
         self._spheres = []
-        self._smooth = [
+        self._meshes = [
             (first, shape)
             for first, shape in zip(self.first, self.shapes, strict=True)
-            if getattr(shape, "normals", None) is not None
+            if hasattr(shape, "put_inside")
         ]
+        self._smooth = [(first, shape) for first, shape in self._meshes if shape.normals is not None]
         for first, shape in zip(self.first, self.shapes, strict=True):
             if isinstance(shape, Sphere):
                 center, side = (
@@ -103,8 +104,9 @@ class Scene:
                 self._spheres.append((first, center, self.dtype(shape.radius), self.dtype(side)))
                 self._reach[first] = np.abs(shape.center).sum() + shape.radius
         extent = max(np.abs(self.bounds()).max(), np.abs(self.camera.origin).max())
+        corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
         self._kernels = [
-            shape.kernel(int(first), extent, self.dtype)
+            shape.kernel(int(first), extent, self.dtype, corners)
             for first, shape in zip(self.first, self.shapes, strict=True)
         ]
 
@@ -177,6 +179,9 @@ class Scene:
         """Points put onto their surfaces, the normals there, and the bound on what is left."""
         n, c = self._n.take(primitive, axis=1), self._c.take(primitive)
         p = p - (dot(n, p) - c) * n
+        for first, shape in self._meshes:
+            lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
+            p[:, lanes] = shape.put_inside(p[:, lanes], primitive[lanes] - first)
         for first, center, radius, side in self._spheres:
             lanes = np.flatnonzero(primitive == first)
             out = p[:, lanes] - center

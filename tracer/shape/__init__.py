@@ -4,7 +4,8 @@
     planes() -> (normals (3, K), offsets (K,))   the plane n . x = c of each flat face
     area() -> (K,)                  area of each primitive in m^2
     triangles() -> (vertices (V, 3), faces (F, 3))   for drawing
-    kernel(first, extent, dtype)    the intersection routine in one precision
+    outline() -> (3, 4, K)          corners of each primitive
+    kernel(first, extent, dtype, corners)   the intersection routine in one precision
 
 and a kernel that answers for a whole wave of Rays:
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.frame import dot
-from tracer.shape import transform
+from tracer.shape import start, transform
 from tracer.shape.rays import hits_only, linear
 
 # Outward local normals: face 2k looks along -axis k, face 2k + 1 along +axis k.
@@ -63,9 +63,14 @@ class Cube:
         lanes = np.arange(local.shape[1])
         return 0.5 * np.stack((local[(axis + 1) % 3, lanes], local[(axis + 2) % 3, lanes])) + 0.5
 
-    def kernel(self, first, extent, dtype):
+    def outline(self):
+        """The four corners of each face, (3, 4, 6)."""
+        corner, e1, e2 = self.parallelograms()
+        return np.stack((corner, corner + e1, corner + e1 + e2, corner + e2), axis=1)
+
+    def kernel(self, first, extent, dtype, corners=None):
         """The intersection routine."""
-        return CubeKernel(self, first, dtype)
+        return CubeKernel(self, first, dtype, corners)
 
 
 class CubeKernel:
@@ -77,7 +82,7 @@ class CubeKernel:
 
     faces = 6
 
-    def __init__(self, cube, first, dtype):
+    def __init__(self, cube, first, dtype, corners):
         inverse = np.linalg.inv(cube.to_world)
         scale = np.abs(inverse[:3, :3]).max()
         inverse[:3, :3][np.abs(inverse[:3, :3]) < 1e-15 * scale] = 0.0
@@ -85,11 +90,14 @@ class CubeKernel:
         self.rows = [tuple(dtype(v) for v in row) for row in inverse[:3, :3]]
         self.shift = [dtype(v) for v in inverse[:3, 3]]
         # Outwards for rays, whichever side of the faces shines.
-        self.outward = transform.normals(cube.to_world, _NORMALS).astype(dtype)
+        outward = transform.normals(cube.to_world, _NORMALS)
+        self.outward = outward.astype(dtype)
+        self.offset = (outward * transform.points(cube.to_world, _NORMALS)).sum(axis=0).astype(dtype)
+        self.corners = corners
         self.one = dtype(1.0)
 
     def closest(self, rays, within=np.inf):
-        """Distance to the first face met, inf for a miss, and the rays in the cube's frame."""
+        """Distance to the first face met, inf for a miss; the rays in the cube's frame, and which enter."""
         o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
         d = [linear(row, rays.d) for row in self.rows]
         near = far = None
@@ -99,15 +107,21 @@ class CubeKernel:
             near = enter if near is None else np.fmax(near, enter)
             far = leave if far is None else np.fmin(far, leave)
         hit = (near <= far) & (far > 0.0)
-        t = hits_only(np.where(near > 0.0, near, far), hit)
+        entering = near > 0.0
+        t = hits_only(np.where(entering, near, far), hit)
         own = (rays.source >= self.first) & (rays.source <= self.last)
         if own.any():
             self._from_own_face(t, o, d, rays, np.flatnonzero(own))
+            entering &= ~own
+        if self.corners is not None:
+            within = np.flatnonzero(hit & (near <= 0.0) & (rays.source >= 0) & ~own)
+            if within.size:
+                self._from_another(t, entering, rays, within)
         if rays.target is not None:
             aimed = (rays.target >= self.first) & (rays.target <= self.last)
             if aimed.any():
                 t[aimed] = np.inf
-        return t, (o, d)
+        return t, (o, d, entering)
 
     def _from_own_face(self, t, o, d, rays, lanes):
         """Put right the distances of rays that start on this cube: none outwards, the far side inwards.
@@ -125,9 +139,27 @@ class CubeKernel:
                 far = np.fmin(far, (np.copysign(self.one, d_k) - np.clip(o_k, -1.0, 1.0)) / d_k)
             t[lanes] = far
 
+    def _from_another(self, t, entering, rays, lanes):
+        """Put right the distances of rays that start on another shape, inside this cube by rounding only.
+
+        They enter at once, or leave it for good, by the face they stand at.
+        """
+        o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
+        for face in range(6):
+            n, c = self.outward[:, face : face + 1], self.offset[face]
+            close = np.abs(dot(n, o) - c) <= start.margin(n, c, o)
+            if close.any():
+                at = np.flatnonzero(close)
+                outside = start.side(n, c, self.corners[:, :, rays.source[lanes[at]]]) > 0
+                into = dot(n, d[:, at]) < 0.0
+                t[lanes[at[outside]]] = np.where(into, 0.0, np.inf)[outside]
+                entering[lanes[at[outside]]] = True
+
     def face(self, hint, rays, t, lanes):
-        """The face whose plane the hit point is nearest to, on the side the ray crosses it."""
-        o, d = hint
-        p = np.stack([o_k[lanes] + t[lanes] * d_k[lanes] for o_k, d_k in zip(o, d, strict=True)])
-        axis = np.argmax(np.abs(p), axis=0)
+        """The face whose plane the hit point is nearest to, of those the ray crosses in its direction."""
+        o, d, entering = hint
+        o, d = (np.stack([v_k[lanes] for v_k in v]) for v in (o, d))
+        p = o + t[lanes] * d
+        crossed = (p * d > 0.0) != entering[lanes]
+        axis = np.argmax(np.abs(p) * crossed, axis=0)
         return (2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)

@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.frame import dot, normalize
 from tracer.settings import TracerError
-from tracer.shape import bvh
+from tracer.shape import bvh, start
 
 # Lanes times triangles in flight: small enough to stay in cache.
 _CHUNK = 1 << 15
@@ -54,6 +54,10 @@ class Mesh:
         """Area of each triangle in m^2, (F,)."""
         return 0.5 * np.linalg.norm(self._cross(), axis=1)
 
+    def outline(self):
+        """The three corners of each triangle, the last one twice, (3, 4, F)."""
+        return self.vertices[self.faces[:, [0, 1, 2, 2]]].transpose(2, 1, 0)
+
     def corners(self):
         """Corner and two sides of each triangle, three (3, F)."""
         a, b, c = (self.vertices[self.faces[:, k]].T for k in range(3))
@@ -71,6 +75,20 @@ class Mesh:
         det = d11 * d22 - d12 * d12
         return np.stack(((d22 * q1 - d12 * q2) / det, (d11 * q2 - d12 * q1) / det))
 
+    def put_inside(self, p, face):
+        """Points (3, N) near triangles, moved along the plane into them where rounding left them outside.
+
+        A grazing ray's distance, and with it the point, slides by the rounding of the plane over the cosine.
+        """
+        v, w = self.uv(p, face)
+        outside = np.flatnonzero((v < 0.0) | (w < 0.0) | (v + w > 1.0))
+        if outside.size:
+            v, w = np.maximum(v[outside], 0.0), np.maximum(w[outside], 0.0)
+            total = np.maximum(v + w, 1.0)
+            a, b, c = (self.vertices[self.faces[face[outside], k]].T.astype(p.dtype) for k in range(3))
+            p[:, outside] = a + (v / total) * (b - a) + (w / total) * (c - a)
+        return p
+
     def shading_normals(self, p, face):
         """Normals interpolated between the vertices and made unit again, (3, N); NaN where they cancel."""
         v, w = self.uv(p, face)
@@ -78,9 +96,9 @@ class Mesh:
         n = normalize((1.0 - v - w) * a + v * b + w * c)
         return -n if self.flip_normals else n
 
-    def kernel(self, first, extent, dtype):
+    def kernel(self, first, extent, dtype, corners=None):
         """The intersection routine."""
-        return MeshKernel(self, first, dtype)
+        return MeshKernel(self, first, dtype, corners)
 
 
 def _check(name, vertices, faces):
@@ -105,15 +123,21 @@ class MeshKernel:
     The ray is sheared onto the axis it points along most; the three edge functions of two triangles that
     share an edge are then the same numbers with opposite signs, so no ray passes between them. In float32
     an edge function that comes out as exactly zero is computed again in float64, where products are exact.
+    The distance is that of the plane: the interpolated one is only as good as the longest sheared side.
     Of triangles at the same distance the lowest number wins, whatever the order of the walk.
     """
 
-    def __init__(self, mesh, first, dtype):
-        self.first, self.faces = first, mesh.primitives
+    def __init__(self, mesh, first, dtype, corners):
+        self.first, self.faces, self.corners = first, mesh.primitives, corners
         self.vertices = mesh.vertices.astype(dtype)
-        self.corners = mesh.faces
+        self.corner_of = mesh.faces
+        n, c = mesh.planes()
+        self.n, self.c = n.astype(dtype), c.astype(dtype)
         of_face = self.vertices[mesh.faces]
-        self.tree = bvh.build(of_face.min(axis=1), of_face.max(axis=1))
+        low, high = of_face.min(axis=1), of_face.max(axis=1)
+        # Wide enough for a ray that starts on a face and, by rounding, behind it.
+        pad = start.margin(self.n, self.c, np.maximum(np.abs(low), np.abs(high)).T)[:, None]
+        self.tree = bvh.build(low - pad, high + pad)
 
     def closest(self, rays, within=np.inf):
         """Distance to the nearest triangle before `within` (N,), inf where there is none, and which."""
@@ -131,15 +155,13 @@ class MeshKernel:
         """closest, for rays whose largest component is `axis`."""
         kx, ky = (axis + 1) % 3, (axis + 2) % 3
         along = rays.d[axis]
-        sheared = np.stack(
-            (rays.o[kx], rays.o[ky], rays.o[axis], rays.d[kx] / along, rays.d[ky] / along, along)
-        )
+        sheared = np.stack((rays.o[kx], rays.o[ky], rays.o[axis], rays.d[kx] / along, rays.d[ky] / along))
         face = np.full(t.size, -1, np.int32)
 
         def visit(triangles, lanes):
             step = max(1, _CHUNK // triangles.size)
-            for start in range(0, lanes.size, step):
-                part = lanes[start : start + step]
+            for begin in range(0, lanes.size, step):
+                part = lanes[begin : begin + step]
                 found = self._triangles(triangles, (kx, ky, axis), sheared.take(part, axis=1), rays, part)
                 best = np.argmin(found, axis=0)
                 t_best, number = found[best, np.arange(part.size)], triangles[best]
@@ -155,7 +177,7 @@ class MeshKernel:
 
     def _triangles(self, triangles, axes, sheared, rays, lanes):
         """Distances (T, N) of sheared rays to triangles; inf for a miss."""
-        x, y, z = _shear(self.vertices, self.corners[triangles], axes, sheared)
+        x, y = _shear(self.vertices, self.corner_of[triangles], axes, sheared)
         u, v, w = _edges(x, y)
         if u.dtype == np.float32:
             again = (u == 0.0) | (v == 0.0) | (w == 0.0)
@@ -164,26 +186,29 @@ class MeshKernel:
                 for edge, better in zip((u, v, w), exact, strict=True):
                     edge[again] = better
         inside = ((u >= 0.0) & (v >= 0.0) & (w >= 0.0)) | ((u <= 0.0) & (v <= 0.0) & (w <= 0.0))
-        det = u + v + w
-        t = (u * z[0] + v * z[1] + w * z[2]) / (det * sheared[5])
         number = self.first + triangles[:, None]
-        hit = inside & (det != 0.0) & (t > 0.0) & (rays.source[lanes] != number)
+        hit = inside & (u + v + w != 0.0) & (rays.source[lanes] != number)
         if rays.target is not None:
             hit &= rays.target[lanes] != number
-        return np.where(hit, t, np.inf)
+        row, column = np.nonzero(hit)
+        met, lanes = triangles[row], lanes[column]
+        o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
+        n, c = self.n.take(met, axis=1), self.c[met]
+        t = np.full(hit.shape, np.inf, u.dtype)
+        t[row, column] = start.distance(o, d, n, c, rays.source[lanes], self.corners)
+        return t
 
 
 def _shear(vertices, corners, axes, sheared):
-    """Corners of triangles (T, 3) as the sheared rays see them: x, y, z, each three (T, N)."""
+    """Corners of triangles (T, 3) across the sheared rays: x and y, each three (T, N)."""
     o, shear_x, shear_y = sheared[:3], sheared[3], sheared[4]
-    x, y, z = [], [], []
+    x, y = [], []
     for k in range(3):
         v = vertices[corners[:, k]]
         away = v[:, axes[2], None] - o[2]
         x.append((v[:, axes[0], None] - o[0]) - shear_x * away)
         y.append((v[:, axes[1], None] - o[1]) - shear_y * away)
-        z.append(away)
-    return x, y, z
+    return x, y
 
 
 def _edges(x, y):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.shape import transform
+from tracer.shape import start, transform
 from tracer.shape.rays import hits_only, linear
 
 
@@ -58,9 +58,14 @@ class Rectangle:
         local = transform.points(np.linalg.inv(self.to_world), p)
         return 0.5 * local[:2] + 0.5
 
-    def kernel(self, first, extent, dtype):
+    def outline(self):
+        """The four corners, (3, 4, 1)."""
+        corner, e1, e2 = self.parallelograms()
+        return np.stack((corner, corner + e1, corner + e1 + e2, corner + e2), axis=1)
+
+    def kernel(self, first, extent, dtype, corners=None):
         """The intersection routine."""
-        return RectangleKernel(self, first, extent, dtype)
+        return RectangleKernel(self, first, extent, dtype, corners)
 
 
 class RectangleKernel:
@@ -72,7 +77,7 @@ class RectangleKernel:
 
     faces = 1
 
-    def __init__(self, rectangle, first, extent, dtype):
+    def __init__(self, rectangle, first, extent, dtype, corners):
         n, c = rectangle.planes()
         n, c = n[:, 0], c[0]
         e1, e2 = rectangle.edges
@@ -80,10 +85,11 @@ class RectangleKernel:
         size = np.abs(dual).max(axis=1, keepdims=True)
         rows = dual / size  # largest component 1: an axis-aligned side costs no product
         centre = rectangle.centre
-        self.first = first
+        self.first, self.corners = first, corners
         self.axis = int(np.argmax(np.abs(n))) if np.count_nonzero(n) == 1 else None
         self.n = tuple(dtype(v) for v in n)
         self.c = dtype(c if self.axis is None else centre[self.axis])
+        self.plane = n.astype(dtype).reshape(3, 1), dtype(c)
         self.rows = [tuple(dtype(v) for v in row) for row in rows]
         self.middles = [dtype(row @ centre) for row in rows]
         eps = np.finfo(dtype).eps
@@ -91,20 +97,31 @@ class RectangleKernel:
             dtype(1.0 / scale[0] + 8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre)))
             for row, scale in zip(rows, size, strict=True)
         ]
+        # No start further from the plane than this, anywhere in the scene, is left to rounding.
+        far = np.full((3, 1), extent, dtype)
+        self.margin = start.margin(np.abs(self.plane[0]), self.plane[1], far)
 
     def closest(self, rays, within=np.inf):
         """Distance along each ray, inf for a miss."""
         if self.axis is None:
-            t = (self.c - linear(self.n, rays.o)) / linear(self.n, rays.d)
+            depth = self.c - linear(self.n, rays.o)
+            t = depth / linear(self.n, rays.d)
         else:
-            t = (self.c - rays.o[self.axis]) * rays.inv_d[self.axis]
-        hit = (t > 0.0) & (rays.source != self.first)
+            depth = self.c - rays.o[self.axis]
+            t = depth * rays.inv_d[self.axis]
+        hit = rays.source != self.first
         if rays.target is not None:
             hit &= rays.target != self.first
         for row, middle, limit in zip(self.rows, self.middles, self.limits, strict=True):
             reach = linear(row, rays.o) + t * linear(row, rays.d)
             hit &= np.abs(reach - middle) <= limit
-        return hits_only(t, hit), None
+        lanes = np.flatnonzero(hit & (np.abs(depth) <= self.margin))
+        hit &= t > 0.0
+        t = hits_only(t, hit)
+        if lanes.size:
+            o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
+            t[lanes] = start.distance(o, d, *self.plane, rays.source[lanes], self.corners)
+        return t, None
 
 
 def _clean(rows):

@@ -59,7 +59,11 @@ class Sphere:
             (np.arctan2(n[1], n[0]) / (2.0 * np.pi) % 1.0, np.arccos(np.clip(n[2], -1, 1)) / np.pi)
         )
 
-    def kernel(self, first, extent, dtype):
+    def outline(self):
+        """Its centre, four times, (3, 4, 1): a sphere lies where its centre lies."""
+        return np.broadcast_to(self.center.reshape(3, 1, 1), (3, 4, 1))
+
+    def kernel(self, first, extent, dtype, corners=None):
         """The intersection routine."""
         return SphereKernel(self, first, dtype)
 
