@@ -8,7 +8,18 @@ import numpy as np
 import pytest
 from stats import chi_square, sidak
 
-from tracer.bsdf import ALL, Conductor, Dielectric, Diffuse, RoughConductor, RoughDielectric
+from tracer.bsdf import (
+    ALL,
+    Conductor,
+    Dielectric,
+    Diffuse,
+    Plastic,
+    RoughConductor,
+    RoughDielectric,
+    RoughPlastic,
+    ThinDielectric,
+    TwoSided,
+)
 from tracer.bsdf.table import BsdfTable
 from tracer.events import LOBES
 
@@ -56,7 +67,25 @@ EXAMPLES = {
             *rough(0.4, 0.4), np.array([1 / 1.5]), column(1, 1, 1), column(1, 1, 1), "ggx", "schlick"
         ),
     ],
+    ThinDielectric: [ThinDielectric(np.array([1.5]), column(1, 0.9, 0.8), column(0.7, 1, 1))],
+    Plastic: [
+        Plastic.coated(np.array([1.5]), column(0.9, 0.5, 0.1), column(1, 1, 1)),
+        Plastic.coated(np.array([1.9]), column(1, 1, 1), column(1, 0.8, 0.5), True, "schlick"),
+        Plastic.coated(np.array([1 / 1.3]), column(0.9, 0.5, 0.1), column(1, 1, 1)),
+    ],
+    RoughPlastic: [
+        RoughPlastic.coated(np.array([0.3]), np.array([1.5]), column(1, 0.5, 0.1), column(1, 1, 1)),
+        RoughPlastic.coated(
+            np.array([0.5]), np.array([1.9]), column(1, 1, 1), column(1, 0.8, 0), True, "beckmann"
+        ),
+    ],
 }
+EXAMPLES[TwoSided] = [
+    TwoSided(EXAMPLES[Diffuse][0]),
+    TwoSided(EXAMPLES[Conductor][0]),
+    TwoSided(EXAMPLES[RoughConductor][1]),
+    TwoSided(EXAMPLES[Plastic][0]),
+]
 EVERY = [material for family in EXAMPLES.values() for material in family]
 SMOOTH = [material for material in EVERY if not material.delta]  # with lobes that are not Dirac ones
 DIRAC = [material for material in EVERY if material.delta]

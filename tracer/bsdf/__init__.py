@@ -18,7 +18,21 @@ Adding a material: its file, and its name in ALL; the tests of all materials the
 from tracer.bsdf.conductor import Conductor
 from tracer.bsdf.dielectric import Dielectric
 from tracer.bsdf.diffuse import Diffuse
+from tracer.bsdf.plastic import Plastic
 from tracer.bsdf.roughconductor import RoughConductor
 from tracer.bsdf.roughdielectric import RoughDielectric
+from tracer.bsdf.roughplastic import RoughPlastic
+from tracer.bsdf.thindielectric import ThinDielectric
+from tracer.bsdf.twosided import TwoSided
 
-ALL = (Diffuse, Conductor, Dielectric, RoughConductor, RoughDielectric)
+ALL = (
+    Diffuse,
+    Conductor,
+    Dielectric,
+    ThinDielectric,
+    RoughConductor,
+    RoughDielectric,
+    Plastic,
+    RoughPlastic,
+    TwoSided,
+)
