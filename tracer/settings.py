@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass, field, fields, replace
 
 import numpy as np
 
-MOST_PIXELS = 10**8  # the film then takes 5 GB
+MOST_PIXELS = 10**8  # the film then takes 9 GB
 
 
 class TracerError(ValueError):

@@ -20,6 +20,7 @@ class Picture:
     """A rendered picture and what it cost."""
 
     rgb: np.ndarray  # (H, W, 3) float32, linear
+    variance: np.ndarray  # (H, W, 3) float32, of each pixel's mean; NaN where it has fewer than 2 samples
     samples: np.ndarray  # (H, W) samples that went into each pixel
     settings: Settings
     seconds: float
@@ -50,7 +51,7 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT):
     try:
         for result in _results(scene, settings, steps, workers):
             task = result.task
-            sheet.add(slice(task.start, task.stop), result.total, task.samples)
+            sheet.add(slice(task.start, task.stop), result.block)
             rays += result.rays
             dropped += result.dropped
             done += (task.stop - task.start) * task.samples
@@ -59,8 +60,11 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT):
     except KeyboardInterrupt:
         complete = False
     seconds = time.perf_counter() - began
-    rgb = np.ascontiguousarray(sheet.mean().T).reshape(height, width, 3)
-    return Picture(rgb, sheet.samples.reshape(height, width), settings, seconds, rays, dropped, complete)
+    rgb, variance = (
+        np.ascontiguousarray(a.T).reshape(height, width, 3) for a in (sheet.mean(), sheet.variance())
+    )
+    samples = sheet.samples.reshape(height, width)
+    return Picture(rgb, variance, samples, settings, seconds, rays, dropped, complete)
 
 
 def _results(scene, settings, steps, workers):
@@ -89,6 +93,7 @@ class PixelRecord:
     x: int
     y: int
     value: np.ndarray  # (3,) float32: the pixel, bit for bit as render gives it
+    variance: np.ndarray  # (3,) float32: of that value; NaN where it is one sample
     paths: tuple[RecordedPath, ...]
     settings: Settings
 
@@ -99,6 +104,7 @@ class PixelRecord:
             "settings": self.settings.as_dict(),
             "pixel": [self.x, self.y],
             "value": [number(v) for v in self.value],
+            "variance": [number(v) for v in self.variance],
             "samples": [path.as_dict(scene) for path in self.paths],
         }
 
@@ -125,4 +131,5 @@ def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
     wave = Wave(np.full(samples.size, x), np.full(samples.size, y), samples, settings, steps)
     with np.errstate(all="ignore"):
         paths = record(waves.events(scene, settings, wave), scene, wave)
-    return PixelRecord(x, y, film.fold(wave.radiance), paths, settings)
+    pixel = film.gather(wave.radiance)
+    return PixelRecord(x, y, pixel.mean()[:, 0], pixel.variance()[:, 0], paths, settings)

@@ -30,7 +30,7 @@ class Result(NamedTuple):
     """What a task brings to the film."""
 
     task: Task
-    total: np.ndarray  # (3, pixels) float64 sum of its samples
+    block: film.Block
     rays: int
     dropped: int
 
@@ -51,8 +51,8 @@ def trace(scene, settings, steps, task):
     sample = np.tile(np.arange(task.sample, task.sample + task.samples), task.stop - task.start)
     wave = Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
     deque(events(scene, settings, wave), maxlen=0)
-    total = film.block_sum(wave.radiance.reshape(3, -1, task.samples))
-    return Result(task, total, wave.rays, wave.dropped)
+    block = film.block(wave.radiance.reshape(3, -1, task.samples))
+    return Result(task, block, wave.rays, wave.dropped)
 
 
 def events(scene, settings, wave):
