@@ -274,4 +274,4 @@ class Scene:
 
     def is_see_through(self, shape):
         """Whether light passes through a shape."""
-        return not self.definition.bsdfs[self.definition.surfaces[shape].bsdf].one_sided
+        return self.definition.bsdfs[self.definition.surfaces[shape].bsdf].see_through

@@ -7,7 +7,7 @@ which they are applied. What is not supported is an error that names the place a
 from pathlib import Path
 
 from tracer.scene import Definition, Scene, Surface
-from tracer.scene_file import objects
+from tracer.scene_file import materials, objects
 from tracer.scene_file.words import Words, listed
 from tracer.settings import TracerError
 
@@ -59,7 +59,8 @@ def load_dict(description, name="scene", folder="."):
     if description.get("type", "scene") != "scene":
         raise TracerError(f'type: {description["type"]!r} at the top; a scene says "scene" or nothing there')
     kinds = {key: objects.kind_of(value, key) for key, value in named.items()}
-    bsdfs = {key: objects.bsdf(named[key], key) for key, kind in kinds.items() if kind == "bsdf"}
+    described = {key: named[key] for key, kind in kinds.items() if kind == "bsdf"}
+    bsdfs = {key: materials.bsdf(table, key, described) for key, table in described.items()}
     surfaces = tuple(
         _surface(Words(named[key], key), bsdfs, Path(folder))
         for key, kind in kinds.items()
@@ -71,6 +72,7 @@ def load_dict(description, name="scene", folder="."):
     if not surfaces:
         raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
+    surfaces = _visible(surfaces, bsdfs)
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
     return Scene(Definition(name, surfaces, used, camera, width, height))
 
@@ -82,7 +84,7 @@ def _surface(table, bsdfs, folder):
     given = table.take("bsdf", None)
     table.finish()
     if given is None:
-        bsdfs.setdefault("default", objects.bsdf({"type": "diffuse"}, "default"))
+        bsdfs.setdefault("default", materials.bsdf({"type": "diffuse"}, "default"))
         return Surface(shape, "default", radiance)
     if isinstance(given, dict) and given.get("type") == "ref":
         reference = Words(given, f"{table.place}.bsdf")
@@ -91,10 +93,17 @@ def _surface(table, bsdfs, folder):
         reference.finish()
     if isinstance(given, dict):
         inline = f"{table.place}.bsdf"
-        bsdfs[inline] = objects.bsdf(given, inline)
+        bsdfs[inline] = materials.bsdf(given, inline)
         return Surface(shape, inline, radiance)
     if given not in bsdfs:
         raise TracerError(
             f"{table.place}.bsdf: no material {given!r} in this scene; there are {listed(bsdfs) or 'none'}"
         )
     return Surface(shape, given, radiance)
+
+
+def _visible(surfaces, bsdfs):
+    """The surfaces without those that light passes as if they were not there (an index of 1, no colour); all
+    of them if nothing else were left."""
+    seen = tuple(s for s in surfaces if s.radiance is not None or not bsdfs[s.bsdf].vanishes)
+    return seen or surfaces

@@ -2,19 +2,15 @@
 
 import numpy as np
 
-from tracer.bsdf import Conductor, Dielectric, Diffuse
 from tracer.camera import Camera
+from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.to_world import to_world
-from tracer.scene_file.words import MISSING, Words, colour, listed, near, real, triple
+from tracer.scene_file.words import Words, colour, listed, near, real, triple
 from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
 
 SHAPES = ("rectangle", "cube", "sphere", "obj", "ply", "stl", "gltf")
-BSDFS = ("diffuse", "conductor", "dielectric")
 SENSORS = ("perspective",)
-
-# Indices of refraction at 589 nm, by the names Mitsuba uses.
-INDICES = {"vacuum": 1.0, "air": 1.000277, "water": 1.333, "bk7": 1.5046, "diamond": 2.419}
 
 
 def kind_of(table, place):
@@ -26,59 +22,6 @@ def kind_of(table, place):
     everything = (*SHAPES, *BSDFS, *SENSORS)
     hint = near(kind, everything)
     raise TracerError(f"{place}.type: {kind!r} is not supported; {hint}known: {listed(everything)}")
-
-
-def bsdf(description, place):
-    """A material with one parameter column."""
-    table = Words(description, place)
-    kind = table.take("type")
-    readers = {"diffuse": _diffuse, "conductor": _conductor, "dielectric": _dielectric}
-    if kind not in readers:
-        raise TracerError(f"{place}.type: {kind!r} is not a material; known: {listed(BSDFS)}")
-    material = readers[kind](table)
-    table.finish()
-    return material
-
-
-def _diffuse(table):
-    return Diffuse(_column(table, "reflectance", 0.5, 1.0))
-
-
-def _column(table, word, default, most=np.inf):
-    return colour(table.take(word, default), f"{table.place}.{word}", most)[:, None]
-
-
-def _conductor(table):
-    material = table.take("material", None)
-    factor = _column(table, "specular_reflectance", 1.0, 1.0)
-    if material == "none" or (material is None and "eta" not in table.table and "k" not in table.table):
-        return Conductor(np.ones((3, 1)), np.full((3, 1), np.inf), factor)
-    if material is not None:
-        raise TracerError(
-            f'{table.place}.material: {material!r} is not known; say "none" (a mirror) or give eta and k'
-        )
-    eta = _column(table, "eta", MISSING)
-    return Conductor(eta, _column(table, "k", MISSING), factor)
-
-
-def _dielectric(table):
-    inside, outside = _index(table, "int_ior", "bk7"), _index(table, "ext_ior", "air")
-    return Dielectric(
-        np.array([inside / outside]),
-        _column(table, "specular_reflectance", 1.0, 1.0),
-        _column(table, "specular_transmittance", 1.0, 1.0),
-    )
-
-
-def _index(table, word, default):
-    value, place = table.take(word, default), f"{table.place}.{word}"
-    if isinstance(value, str):
-        if value not in INDICES:
-            raise TracerError(f"{place}: {value!r} is not known; give a number or one of {listed(INDICES)}")
-        return INDICES[value]
-    if real(value, place) <= 0.0:
-        raise TracerError(f"{place}: {value:g} is no index of refraction; it has to be above 0")
-    return float(value)
 
 
 def area_emitter(description, place):
