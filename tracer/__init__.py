@@ -18,13 +18,15 @@ Conventions, stated here and nowhere else:
 from tracer.engine import inspect, render
 from tracer.film import fold
 from tracer.picture import write
-from tracer.scene_file import built_in_scenes, load, load_dict
+from tracer.scene_file import SceneWarning, built_in_scenes, export, load, load_dict
 from tracer.settings import Settings, TracerError
 
 __all__ = [
+    "SceneWarning",
     "Settings",
     "TracerError",
     "built_in_scenes",
+    "export",
     "fold",
     "inspect",
     "load",

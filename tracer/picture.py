@@ -15,6 +15,11 @@ def check_path(path):
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise TracerError(f"{path}: unknown kind of picture {path.suffix!r}; use .exr, .png or .npy")
+    check_place(path)
+
+
+def check_place(path):
+    """TracerError if no file can be written to `path`."""
     if path.is_dir():
         raise TracerError(f"{path}: is a folder; name a file in it")
     if not path.parent.is_dir():
@@ -28,16 +33,22 @@ def write(rgb, path):
 
     Raises TracerError where that is impossible.
     """
+    check_path(path)
+    writer = {".exr": _write_exr, ".png": _write_png, ".npy": _write_npy}[Path(path).suffix.lower()]
+    write_whole(path, lambda beside: writer(rgb, beside))
+
+
+def write_whole(path, write):
+    """Let write(name) fill a file beside `path` and put it there: it appears whole or not at all."""
     import tempfile
 
     path = Path(path)
-    check_path(path)
-    writer = {".exr": _write_exr, ".png": _write_png, ".npy": _write_npy}[path.suffix.lower()]
+    check_place(path)
     try:
         handle, beside = tempfile.mkstemp(suffix=path.suffix.lower(), prefix=".castray-", dir=path.parent)
         os.close(handle)
         try:
-            writer(rgb, beside)
+            write(beside)
             os.chmod(beside, 0o666 & ~_umask())
             os.replace(beside, path)
         except BaseException:

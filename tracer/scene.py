@@ -30,6 +30,7 @@ class Definition(NamedTuple):
     camera: object
     width: int
     height: int
+    source: tuple | None = None  # the description it was made from, and the folder of its files
 
 
 class Hit(NamedTuple):

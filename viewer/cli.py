@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import warnings
 from dataclasses import fields, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,6 +12,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 import tracer
 from tracer.settings import Settings, TracerError
+from viewer.export import export
 
 
 def _version():
@@ -221,6 +223,9 @@ def view(
     viewer_app.serve(tracer.load(scene), settings, port, browser)
 
 
+app.command(export)
+
+
 @app.command
 def bugs(*, json: Json = False):
     """List the bug zoo: what each bug looks like, and which law it breaks."""
@@ -254,13 +259,19 @@ def _progress(what):
     return bar(what)
 
 
+def _say(message, *_):
+    print(f"castray: {' '.join(str(message).split())}", file=sys.stderr)
+
+
 def main(words=None):
     """Run `castray WORDS`. Bad input is one line on standard error and exit code 2."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal that lacks a character shows "?"
     try:
-        code = app(words, exit_on_error=False, print_error=False)
+        with warnings.catch_warnings():
+            warnings.showwarning = _say
+            code = app(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
         print(f"castray: {' '.join(str(error).split())}", file=sys.stderr)
         sys.exit(2)

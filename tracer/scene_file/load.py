@@ -1,9 +1,10 @@
-"""Scenes from TOML files and dicts, in the words of Mitsuba 3; mistakes are explained.
+"""Scenes from TOML files, Mitsuba 3 XML and dicts, in the words of Mitsuba 3; mistakes are explained.
 
 A scene is a table of named objects, each with a `type`. A transform is a list of steps in the order in
 which they are applied. What is not supported is an error that names the place and the words that would do.
 """
 
+import copy
 from pathlib import Path
 
 from tracer.scene import Definition, Scene, Surface
@@ -24,19 +25,38 @@ def load(scene):
 
     Raises TracerError with file, place, word, and the words that would do.
     """
-    import tomllib
-
     text = str(scene)
     path = Path(text)
+    if path.suffix.lower() == ".xml":
+        return _load_xml(path)
     if path.suffix.lower() != ".toml":
-        if text in built_in_scenes():
-            path = BUILT_IN / f"{text}.toml"
-        else:
+        if text not in built_in_scenes():
             known = ", ".join(built_in_scenes())
-            raise TracerError(f"{text}: no such scene; give a .toml file or one of {known}")
+            raise TracerError(f"{text}: no such scene; give a .toml or .xml file or one of {known}")
+        path = BUILT_IN / f"{text}.toml"
+    description = _toml(path)
     try:
-        source = path.read_text(encoding="utf-8-sig")  # some editors put a mark first
-        description = tomllib.loads(source)
+        return load_dict(description, path.stem, path.parent)
+    except TracerError as error:
+        raise TracerError(f"{path}: {error}") from None
+
+
+def _load_xml(path):
+    from tracer.scene_file.mitsuba_xml import Translation
+
+    xml = Translation(path)
+    try:
+        return load_dict(xml.description, path.stem, path.parent)
+    except TracerError as error:
+        raise TracerError(f"{xml.place(str(error))}: {error}") from None
+
+
+def _toml(path):
+    """The tables of a TOML file."""
+    import tomllib
+
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))  # some editors put a mark first
     except OSError as error:
         raise TracerError(f"{path}: cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError as error:
@@ -45,10 +65,6 @@ def load(scene):
         raise TracerError(f"{path}: is not correct TOML: {error}") from None
     except RecursionError:
         raise TracerError(f"{path}: is nested too deeply to be a scene") from None
-    try:
-        return load_dict(description, path.stem, path.parent)
-    except TracerError as error:
-        raise TracerError(f"{path}: {error}") from None
 
 
 def load_dict(description, name="scene", folder="."):
@@ -74,7 +90,8 @@ def load_dict(description, name="scene", folder="."):
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
     surfaces = _visible(surfaces, bsdfs)
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
-    return Scene(Definition(name, surfaces, used, camera, width, height))
+    source = copy.deepcopy(description), Path(folder)
+    return Scene(Definition(name, surfaces, used, camera, width, height, source))
 
 
 def _surface(table, bsdfs, folder):
@@ -84,8 +101,10 @@ def _surface(table, bsdfs, folder):
     given = table.take("bsdf", None)
     table.finish()
     if given is None:
-        bsdfs.setdefault("default", materials.bsdf({"type": "diffuse"}, "default"))
-        return Surface(shape, "default", radiance)
+        # As in Mitsuba: grey, but a lamp about which nothing is said is black.
+        name, grey = ("default", 0.5) if radiance is None else ("default_lamp", 0.0)
+        bsdfs.setdefault(name, materials.bsdf({"type": "diffuse", "reflectance": grey}, name))
+        return Surface(shape, name, radiance)
     if isinstance(given, dict) and given.get("type") == "ref":
         reference = Words(given, f"{table.place}.bsdf")
         given = reference.take("id")

@@ -7,6 +7,10 @@ from tracer.settings import TracerError
 MISSING = object()  # a word without a default
 
 
+class SceneWarning(UserWarning):
+    """Something a scene file says that castray takes from elsewhere: one line that says what and where."""
+
+
 def listed(names):
     """Names in one line."""
     return ", ".join(map(str, names))

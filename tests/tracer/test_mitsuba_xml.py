@@ -1,0 +1,350 @@
+"""Mitsuba's XML means what the same words mean in a dict, and what goes out comes back the same."""
+
+import errno
+import os
+
+import numpy as np
+import pytest
+from suite import castray
+
+import tracer
+from tracer import SceneWarning, Settings, TracerError
+
+XML = """<?xml version="1.0" encoding="utf-8"?>
+<scene version="3.0.0">
+  <sensor type="perspective">
+    <float name="fov" value="40"/>
+    <transform name="to_world"><lookat origin="0,0,4" target="0,0,0" up="0 1 0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="6"/></film>
+  </sensor>
+  <bsdf type="diffuse" id="white"><rgb name="reflectance" value="0.8, 0.7 0.6"/></bsdf>
+  <shape type="rectangle" id="lamp">
+    <ref id="white"/>
+    <emitter type="area"><rgb name="radiance" value="1 2 3"/></emitter>
+  </shape>
+  <shape type="sphere" id="ball">
+    <point name="center" x="0" y="0" z="1"/><float name="radius" value="0.5"/><ref id="white"/>
+  </shape>
+</scene>
+"""
+DICT = {
+    "sensor": {
+        "type": "perspective",
+        "fov": 40.0,
+        "to_world": [{"look_at": {"origin": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0]}}],
+        "film": {"width": 8, "height": 6},
+    },
+    "white": {"type": "diffuse", "reflectance": [0.8, 0.7, 0.6]},
+    "lamp": {"type": "rectangle", "bsdf": "white", "emitter": {"type": "area", "radiance": [1, 2, 3]}},
+    "ball": {"type": "sphere", "center": [0, 0, 1], "radius": 0.5, "bsdf": "white"},
+}
+SMALL = Settings(width=8, height=6, spp=4, max_depth=6)
+
+
+@pytest.fixture
+def read(tmp_path):
+    """A scene from XML text."""
+
+    def reader(text):
+        (tmp_path / "room.xml").write_text(text, encoding="utf-8")
+        return tracer.load(tmp_path / "room.xml")
+
+    return reader
+
+
+def same(a, b, settings=SMALL):
+    return np.array_equal(tracer.render(a, settings).rgb, tracer.render(b, settings).rgb)
+
+
+def tall(matrix):
+    """A scene whose ball was moved by `matrix`, (4, 4) of its steps."""
+    return tracer.load_dict({**DICT, "box": {"type": "cube", "to_world": matrix}})
+
+
+def test_xml_and_dict_are_the_same_scene(read):
+    scene = read(XML)
+    assert (scene.name, scene.light_names) == ("room", ("lamp",))
+    assert same(scene, tracer.load_dict(DICT))
+
+
+BOX = '<shape type="cube"><transform name="to_world">{}</transform></shape></scene>'
+
+
+@pytest.mark.parametrize(
+    ("spelled", "steps"),
+    [
+        ('<translate x="1" z="2"/>', [{"translate": [1, 0, 2]}]),
+        ('<translate value="1,0,2"/>', [{"translate": [1, 0, 2]}]),
+        ('<scale value="2"/>', [{"scale": 2}]),
+        ('<scale x="2"/>', [{"scale": [2, 1, 1]}]),
+        (
+            '<rotate y="1" angle="30"/><scale value="1 2 3"/>',
+            [{"rotate": [0, 1, 0], "angle": 30}, {"scale": [1, 2, 3]}],
+        ),
+        ('<rotate value="1,1,0" angle="30"/>', [{"rotate": [1, 1, 0], "angle": 30}]),
+        (
+            '<lookat origin="1 2 3" target="0 0 1" up="0 0 1"/>',
+            [{"look_at": {"origin": [1, 2, 3], "target": [0, 0, 1], "up": [0, 0, 1]}}],
+        ),
+        ('<matrix value="1 2 0 0 1 0 0 0 3"/>', [[1, 2, 0, 0], [0, 1, 0, 0], [0, 0, 3, 0], [0, 0, 0, 1]]),
+        (
+            '<matrix value="1 2 0 4 0 1 0 5 0 0 3 6 0 0 0 1"/>',
+            [[1, 2, 0, 4], [0, 1, 0, 5], [0, 0, 3, 6], [0, 0, 0, 1]],
+        ),
+    ],
+)
+def test_every_transform_of_the_xml_is_that_of_the_dict(read, spelled, steps):
+    here = read(XML.replace("</scene>", BOX.format(spelled))).shapes[-1].to_world
+    assert np.array_equal(here, tall(steps).shapes[-1].to_world)
+
+
+def test_parameters_are_put_in_and_the_first_default_counts(read):
+    text = XML.replace('value="0.8, 0.7 0.6"', 'value="$r, 0.7 0.$last"').replace('id="white"', 'id="$name"')
+    given = {"r": "0.8", "last": "6", "name": "white"}
+    defaults = "".join(f'<default name="{k}" value="{v}"/>' for k, v in given.items())
+    scene = read(text.replace('3.0.0">', f'3.0.0">{defaults}<default name="r" value="0.1"/>'))
+    assert same(scene, read(XML))
+
+
+def test_a_reference_may_stand_before_its_object_and_point_into_another(read):
+    white = XML.splitlines()[7]
+    late = XML.replace(white, "").replace("</scene>", white + "</scene>")
+    assert same(read(late), read(XML))
+    inside = XML.replace(white, "").replace('<ref id="white"/>', white, 1)
+    assert same(read(inside), read(XML))
+
+
+def test_a_file_may_include_another(read, tmp_path):
+    white = XML.splitlines()[7]
+    part = f'<scene version="3.0.0">{white}</scene>'
+    (tmp_path / "part.xml").write_text(part, encoding="utf-8")
+    assert same(read(XML.replace(white, '<include filename="part.xml"/>')), read(XML))
+
+
+def test_objects_without_ids_get_names_of_their_own(read):
+    more = '<shape type="cube"/><shape type="cube"/><bsdf type="diffuse" id="cube_2"/></scene>'
+    scene = read(XML.replace("</scene>", more))
+    assert [shape.name for shape in scene.shapes] == ["lamp", "ball", "cube", "cube_3"]
+
+
+def test_colours_may_be_one_number_or_a_constant_spectrum(read):
+    for spelled in (
+        'rgb name="reflectance" value="0.5"',
+        'spectrum name="reflectance" value="0.5"',
+        'float name="reflectance" value="0.5"',
+        'rgb name="reflectance" value="0.5,0.5,0.5"',
+    ):
+        scene = read(XML.replace('rgb name="reflectance" value="0.8, 0.7 0.6"', spelled))
+        assert np.array_equal(scene.display_colour(0), [0.5] * 3)
+
+
+def test_a_mesh_without_normals_is_smooth_in_mitsuba_unless_it_says_otherwise(read, tmp_path):
+    (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    mesh = '<shape type="obj"><string name="filename" value="m.obj"/>{}</shape></scene>'
+    assert read(XML.replace("</scene>", mesh.format(""))).shapes[-1].normals is not None
+    flat = '<boolean name="face_normals" value="true"/>'
+    assert read(XML.replace("</scene>", mesh.format(flat))).shapes[-1].normals is None
+
+
+FILM = '<film type="hdrfilm">'
+DEPTH = '<integrator type="path"><integer name="max_depth" value="{}"/></integrator>'
+NOTED = [
+    ('3.0.0">', '3.0.0">' + DEPTH.format(8), "--max-depth 8"),
+    ('3.0.0">', '3.0.0"><integrator type="direct"/>', "--max-depth 2"),
+    (FILM, FILM + '<rfilter type="gaussian"/>', "gaussian"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), NOTED)
+def test_a_setting_in_the_file_is_named_with_its_line(read, old, new, said):
+    with pytest.warns(SceneWarning, match=said) as noted:
+        scene = read(XML.replace(old, new))
+    assert "room.xml: line " in str(noted[0].message)
+    assert same(scene, read(XML))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('3.0.0">', '3.0.0">' + DEPTH.format(-1)),
+        (FILM, FILM + '<rfilter type="box"/><string name="pixel_format" value="rgba"/>'),
+        (FILM, '<sampler type="multijitter"><integer name="sample_count" value="64"/></sampler>' + FILM),
+        (FILM, '<float name="near_clip" value="0.1"/>' + FILM),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_what_changes_no_picture_is_let_through_in_silence(read, old, new):
+    assert same(read(XML.replace(old, new)), read(XML))
+
+
+BAD = [
+    ('type="sphere"', 'type="spheer"', ("line 13", "spheer", "sphere")),
+    ('name="radius"', 'name="radios"', ("line 14", "ball.radios", "radius")),
+    ('value="0.5"', 'value="half"', ("line 14", "half")),
+    ('value="0.5"', 'value="1_0"', ("line 14", "1_0")),
+    ('value="0.5"', 'value="nan"', ("line 14", "ball.radius", "nan")),
+    ('value="0.5"', 'value="1 2"', ("line 14", "one")),
+    ('z="1"', "", ("line 14", 'z="')),
+    ('z="1"', 'w="1"', ("line 14", 'z="')),
+    ('value="1 2 3"', 'value="1 2"', ("line 11", "lamp.emitter.radiance", "three")),
+    ('value="1 2 3"', 'value="1 -2 3"', ("line 11", "lamp.emitter.radiance", "-2")),
+    (
+        '<rgb name="radiance" value="1 2 3"/>',
+        '<spectrum name="radiance" value="400:1, 700:2"/>',
+        ("line 11", "rgb"),
+    ),
+    ('<ref id="white"/>', '<ref id="wite"/>', ("line 10", "wite", "white")),
+    ('<ref id="white"/>', '<ref id="lamp"/>', ("line 10", "lamp", "shape")),
+    ('<ref id="white"/>', '<ref id="white"/><ref id="white"/>', ("line 10", "twice")),
+    ('<bsdf type="diffuse"', '<bsdf type="cube"', ("line 8", "cube", "shape")),
+    ('<bsdf type="diffuse"', '<bsdf type="principled"', ("line 8", "principled", "diffuse")),
+    ('<bsdf type="diffuse"', "<bsdf", ("line 8", 'type="')),
+    ('id="ball"', 'id="lamp"', ("line 13", "lamp", "line 9")),
+    ('id="ball"', 'nome="ball"', ("line 13", "nome", "id")),
+    ('"0,0,4"', '"0,0"', ("line 5", "origin", "three")),
+    ('up="0 1 0"', 'up="0 0 1"', ("line 5", "look_at", "up")),
+    ("<lookat", "<look", ("line 5", "look", "lookat")),
+    ('value="8"', 'value="8.5"', ("line 6", "8.5")),
+    ('value="8"', 'value="-8"', ("line 6", "film.width", "-8")),
+    ('value="40"', 'value="$fov"', ("line 4", "$fov")),
+    ("</sensor>", "", ("line 16", "not correct XML")),
+    ("</sensor>", "</sensor>words", ("line 7", "words")),
+    ("</sensor>", '</sensor><medium type="homogeneous"/>', ("line 7", "medium", "shape")),
+    ("</sensor>", '</sensor><integrator type="ptracer"/>', ("line 7", "ptracer", "path")),
+    ("</sensor>", '</sensor><include filename="gone.xml"/>', ("gone.xml", "No such file")),
+    ("</sensor>", '</sensor><include filename="room.xml"/>', ("deeply",)),
+    ('version="3.0.0"', 'version="0.6.0"', ("line 2", "0.6.0", "2.0.0")),
+    ('version="3.0.0"', "", ("line 2", "version")),
+    ("utf-8", "gb18030", ("line 1", "encoding")),
+    ("utf-8", "no-such-code", ("line 1", "encoding")),
+    ("<scene", '<!DOCTYPE scene [<!ENTITY a "b">]><scene', ("line 2", "entities")),
+    ("<scene", '<!DOCTYPE scene SYSTEM "https://example.org/x.dtd"><scene', ("line 2", "entities")),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), BAD)
+def test_a_mistake_is_named_with_file_line_and_word(read, old, new, said):
+    assert old in XML
+    with pytest.raises(TracerError) as refused:
+        read(XML.replace(old, new, 1))
+    message = str(refused.value)
+    assert ".xml: " in message and "\n" not in message
+    assert not [word for word in said if word not in message], message
+
+
+def test_a_material_that_is_part_of_itself_is_refused(read):
+    loop = '<bsdf type="twosided" id="loop"><ref id="loop"/></bsdf></scene>'
+    with pytest.raises(TracerError, match="line 16.*part of itself"):
+        read(XML.replace("</scene>", loop))
+
+
+def test_elements_without_end_are_refused(read):
+    with pytest.raises(TracerError, match="deeply"):
+        read('<scene version="3.0.0">' + "<shape>" * 100_000)
+
+
+@pytest.mark.parametrize("name", tracer.built_in_scenes())
+def test_every_scene_goes_out_and_comes_back_the_same(tmp_path, name):
+    scene = tracer.load(name)
+    tracer.export(scene, tmp_path / f"{name}.xml")
+    back = tracer.load(tmp_path / f"{name}.xml")
+    assert (back.name, back.width, back.height) == (scene.name, scene.width, scene.height)
+    assert back.light_names == scene.light_names
+    assert same(scene, back, Settings(width=16, height=16, spp=4, seed=3))
+
+
+EVERY_SPELLING = {
+    "type": "scene",
+    "eye": {**DICT["sensor"], "fov_axis": "y", "film": {}},
+    "lamp": {
+        "type": "rectangle",
+        "to_world": {"scale": [1.0, 2, 0.1 + 0.2]},
+        "emitter": {"type": "area", "radiance": 1 / 3},
+    },
+    "room": {
+        "type": "cube",
+        "flip_normals": True,
+        "to_world": np.diag([4.0, 5.0, 6.0, 1.0]),
+        "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.1, 0.2, 0.3]}},
+    },
+    "glass": {"type": "dielectric", "int_ior": "water", "ext_ior": 1.0},
+    "ball": {
+        "type": "sphere",
+        "bsdf": {"type": "ref", "id": "glass"},
+        "to_world": [{"translate": [0, 0, 2]}],
+    },
+    "gold": {"type": "conductor", "eta": [0.2, 0.4, 1.5], "k": (3, 2, 2)},
+    "mesh": {
+        "type": "obj",
+        "filename": "in/m.obj",
+        "bsdf": "gold",
+        "to_world": [{"rotate": [1, 2, 3], "angle": 4}],
+    },
+}
+
+
+def test_every_spelling_of_a_dict_goes_out_and_comes_back_the_same(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    scene = tracer.load_dict(EVERY_SPELLING, "every", tmp_path)
+    tracer.export(scene, tmp_path / "every.xml")
+    back = tracer.load(tmp_path / "every.xml")
+    assert (back.width, back.height) == (256, 256), "Mitsuba's film is of another size by default"
+    assert 'value="in/m.obj"' in (tmp_path / "every.xml").read_text(encoding="utf-8")
+    for precision in (32, 64):
+        assert same(scene, back, Settings(width=16, height=12, spp=4, precision=precision))
+
+
+@pytest.mark.parametrize("name", ["a\x01b", "a$b", "a\ud800b"])
+def test_a_name_that_xml_cannot_carry_is_refused(tmp_path, name):
+    scene = tracer.load_dict({**DICT, name: DICT["ball"]})
+    with pytest.raises(TracerError, match="rename"):
+        tracer.export(scene, tmp_path / "out.xml")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ['a"b<c>&d', "光线", "a b\tc"])
+def test_an_odd_name_comes_back_the_same(tmp_path, name):
+    tracer.export(tracer.load_dict({**DICT, name: DICT["ball"]}), tmp_path / "out.xml")
+    assert tracer.load(tmp_path / "out.xml").shapes[-1].name == name
+
+
+def test_a_disk_that_fills_up_leaves_the_old_scene_whole(tmp_path, monkeypatch):
+    out = tmp_path / "out.xml"
+    out.write_bytes(b"the scene of yesterday")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(TracerError, match="No space left"):
+        tracer.export(tracer.load_dict(DICT), out)
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"the scene of yesterday"]
+
+
+def test_the_command_writes_what_the_command_reads(tmp_path):
+    done = castray("export", "cornell", "-o", "box.xml", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    for scene in ("box.xml", "cornell"):
+        words = ("--size", "8", "8", "--spp", "2", "--max-depth", "3", "-o", f"{scene}.npy")
+        done = castray("render", scene, *words, cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "")
+    assert np.array_equal(np.load(tmp_path / "box.xml.npy"), np.load(tmp_path / "cornell.npy"))
+
+
+@pytest.mark.parametrize(
+    ("words", "said"), [(("-o", "out.obj"), ".xml"), (("-o", "no/out.xml"), "no folder"), ((), "nowhere")]
+)
+def test_the_command_refuses_in_one_line(tmp_path, words, said):
+    scene = "cornell" if words else "nowhere"
+    done = castray("export", scene, *words, cwd=tmp_path)
+    assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    assert said in done.stderr and not list(tmp_path.iterdir())
+
+
+def test_the_command_says_what_is_a_setting(tmp_path):
+    old, new, said = NOTED[0]
+    (tmp_path / "room.xml").write_text(XML.replace(old, new), encoding="utf-8")
+    done = castray("render", "room.xml", "--spp", "1", "-o", "out.npy", "--json", cwd=tmp_path)
+    (line,) = done.stderr.splitlines()
+    assert done.returncode == 0 and line.startswith("castray: ") and said in line
