@@ -30,18 +30,18 @@ app = App(
 
 def _whole(type_, tokens):
     """A whole number, and not a rounded one."""
-    return _integer(tokens[0].value)
+    return _integer(tokens[0])
 
 
 def _two_whole(type_, tokens):
-    return tuple(_integer(token.value) for token in tokens)
+    return tuple(_integer(token) for token in tokens)
 
 
-def _integer(text):
+def _integer(token):
     try:
-        return int(text)
+        return int(token.value)
     except ValueError:
-        raise TracerError(f"{text!r} is not a whole number") from None
+        raise TracerError(f"{token.keyword or 'there'}: {token.value!r} is not a whole number") from None
 
 
 def _path_options():
