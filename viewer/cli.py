@@ -30,18 +30,18 @@ app = App(
 
 def _whole(type_, tokens):
     """A whole number, and not a rounded one."""
-    return _integer(tokens[0])
+    return _integer(tokens[0].value)
 
 
 def _two_whole(type_, tokens):
-    return tuple(_integer(token) for token in tokens)
+    return tuple(_integer(token.value, f"{token.keyword}: ") for token in tokens)
 
 
-def _integer(token):
+def _integer(text, place=""):
     try:
-        return int(token.value)
+        return int(text)
     except ValueError:
-        raise TracerError(f"{token.keyword or 'there'}: {token.value!r} is not a whole number") from None
+        raise TracerError(f"{place}{text!r} is not a whole number") from None
 
 
 def _path_options():

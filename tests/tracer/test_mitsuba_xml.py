@@ -273,7 +273,9 @@ EVERY_SPELLING = {
         "bsdf": {"type": "ref", "id": "glass"},
         "to_world": [{"translate": [0, 0, 2]}],
     },
+    "card": {"type": "twosided", "inside": {"type": "roughplastic", "alpha": 0.2, "nonlinear": True}},
     "gold": {"type": "conductor", "eta": [0.2, 0.4, 1.5], "k": (3, 2, 2)},
+    "sheet": {"type": "rectangle", "bsdf": "card", "to_world": {"translate": [-1, 0, 1]}},
     "mesh": {
         "type": "obj",
         "filename": "in/m.obj",

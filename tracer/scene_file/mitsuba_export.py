@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from tracer.picture import write_whole
+from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.objects import kind_of
 from tracer.settings import TracerError
 
@@ -110,8 +111,10 @@ class _Writer:
             _value(parent, "rgb", word, _numbers(np.ravel(table["value"])))
         elif kind == "ref":
             ElementTree.SubElement(parent, "ref", id=_text(table["id"], place))
-        elif word in ("film", "emitter") or word.startswith("bsdf"):
-            self.object(parent, word.partition("_")[0], table)
+        elif word in ("film", "emitter"):
+            self.object(parent, word, table)
+        elif kind in BSDFS:
+            self.object(parent, "bsdf", table)
         else:
             self.object(parent, "texture", table, name=word)
 
