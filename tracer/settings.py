@@ -53,6 +53,7 @@ class Settings:
     sampler: str = option("independent", "where random numbers come from", choices=("independent",))
     precision: int = option(32, "bits of the floating point numbers", choices=(32, 64))
     jitter: bool = option(True, "spread samples over the pixel (off: all through its centre)")
+    bug: str | None = option(None, "plant a bug of the zoo (`castray bugs` lists them)")
 
     def __post_init__(self):
         for f in fields(self):
@@ -68,6 +69,8 @@ class Settings:
                 raise TracerError(f"{f.name}: {value} is not between {rules['least']} and {rules['most']}")
         if not isinstance(self.jitter, bool):
             raise TracerError(f"jitter: {self.jitter!r} is neither true nor false")
+        if not isinstance(self.bug, str | None):
+            raise TracerError(f"bug: {self.bug!r} is not the name of a bug")
         self._check_roulette()
         if self.integrator != "path" and self.strategy != "mis":
             raise TracerError(

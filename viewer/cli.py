@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cyclopts import App, CycloptsError, Parameter
 
 import tracer
+from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
 from viewer.export import export
 
@@ -58,8 +59,6 @@ def _path_options():
         text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
         converter = _whole if f.type is int else None
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
-    bug = Annotated[str | None, Parameter(help="plant a bug of the zoo (`castray bugs` lists them)")]
-    columns.append(("bug", bug, None))
     return Parameter(name="*", group="Path options")(
         make_dataclass("PathOptions", columns, frozen=True, namespace={"__module__": __name__})
     )
@@ -72,17 +71,11 @@ Json = Annotated[bool, Parameter(help="print one JSON document and nothing else"
 
 def _settings(options):
     """Settings and named steps that the path options ask for."""
-    from tracer.integrator.steps import RIGHT
-
     options = options or PathOptions()
     width, height = options.size or (None, None)
     names = [f.name for f in fields(Settings) if f.name not in ("width", "height")]
     settings = Settings(width=width, height=height, **{name: getattr(options, name) for name in names})
-    if not options.bug:
-        return settings, RIGHT
-    from lessons.zoo import steps
-
-    return settings, steps(options.bug)
+    return settings, planted(settings)
 
 
 @app.command

@@ -8,6 +8,7 @@ from tracer.settings import Settings, TracerError
 PLACE = ("x", "y", "path", "event")
 LONGEST = 4096
 DEFAULTS = {f.name: f.default for f in fields(Settings)}
+TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def _setting(name, text):
         if text not in ("True", "False"):
             raise TracerError(f"link: {name}={text!r} is neither True nor False")
         return text == "True"
-    return text if isinstance(default, str) else _whole(name, text)
+    return text if name in TEXTS else _whole(name, text)
 
 
 def _place(words):

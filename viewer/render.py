@@ -4,6 +4,7 @@ import threading
 from dataclasses import replace
 
 import tracer
+from lessons.zoo import planted
 
 FINER = 4  # each pass has this many times the samples of the one before
 
@@ -38,7 +39,10 @@ class Painter:
         try:
             for spp in passes(self.settings.spp):
                 picture = tracer.render(
-                    self.scene, replace(self.settings, spp=spp), progress=self._reporter(progress, spp)
+                    self.scene,
+                    replace(self.settings, spp=spp),
+                    progress=self._reporter(progress, spp),
+                    steps=planted(self.settings),
                 )
                 self._check()
                 done(picture.rgb, spp)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 import tracer
+from lessons.zoo import planted
 from viewer.cursor import Cursor
 from viewer.link import Link
 from viewer.numerals import luminance
@@ -28,7 +29,7 @@ class Session:
 
     def pick(self, x, y):
         """Re-trace a pixel with the recorder on and stand at the start of its brightest path."""
-        self.record = tracer.inspect(self.scene, self.settings, x, y)
+        self.record = tracer.inspect(self.scene, self.settings, x, y, steps=planted(self.settings))
         lengths = tuple(len(path.events) for path in self.record.paths)
         self.cursor = Cursor(x, y, lengths, brightest(self.record))
 
@@ -102,12 +103,13 @@ def throughput(events, index):
 
 def telling_pixel(scene, settings, tries=9):
     """A pixel worth opening with: of a few over the picture, the one whose brightest path shows most."""
+    steps = planted(settings)
     few = replace(settings, spp=min(settings.spp, 8))
     places = [
         (int((0.3 + 0.2 * (k % 3)) * settings.width), int((0.5 + 0.15 * (k // 3)) * settings.height))
         for k in range(tries)
     ]
-    return max(places, key=lambda place: _telling(tracer.inspect(scene, few, *place)))
+    return max(places, key=lambda place: _telling(tracer.inspect(scene, few, *place, steps=steps)))
 
 
 def _telling(record):

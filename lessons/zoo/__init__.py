@@ -14,7 +14,7 @@ from tracer.settings import TracerError
 
 ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film) for bug in family.BUGS}
 
-__all__ = ["RIGHT", "ZOO", "Bug", "changed", "steps"]
+__all__ = ["RIGHT", "ZOO", "Bug", "changed", "planted", "steps"]
 
 
 def steps(bug_id):
@@ -22,6 +22,11 @@ def steps(bug_id):
     if bug_id not in ZOO:
         raise TracerError(f"bug: {bug_id!r} is not in the zoo; there are {', '.join(ZOO)}")
     return ZOO[bug_id].steps
+
+
+def planted(settings):
+    """The Steps of the tracer that the settings ask for: with their bug, or right."""
+    return steps(settings.bug) if settings.bug else RIGHT
 
 
 def changed(**steps):

@@ -60,3 +60,8 @@ def test_a_bad_link_is_one_clear_line(text):
     with pytest.raises(TracerError) as refused:
         parse(text)
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 400
+
+
+def test_a_link_carries_the_planted_bug():
+    asked = Link("cornell", Settings(bug="E01"), (3, 4, 0, 1))
+    assert parse("http://127.0.0.1:1/#" + asked.write()) == asked

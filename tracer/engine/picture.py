@@ -39,9 +39,10 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT):
 
     progress: called as progress(paths done, paths in all). workers: most processes to use; more than one
     only when the work is worth their start, and the picture is the same bit for bit. steps: the named steps
-    of the loop. Ctrl-C returns the picture so far with complete = False.
+    of the loop; settings.bug asks for those of `lessons.zoo.planted`. Ctrl-C returns the picture so far
+    with complete = False.
     """
-    settings = settings.at_size_of(scene)
+    settings = _asked(scene, settings, steps)
     scene = scene.at(settings)
     width, height = settings.width, settings.height
     sheet = film.Film(width * height)
@@ -65,6 +66,13 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT):
     )
     samples = sheet.samples.reshape(height, width)
     return Picture(rgb, variance, samples, settings, seconds, rays, dropped, complete)
+
+
+def _asked(scene, settings, steps):
+    """The settings at the scene's size; TracerError if they name a bug whose steps were not given."""
+    if settings.bug and steps is RIGHT:
+        raise TracerError(f"bug: {settings.bug} needs its steps: pass steps=lessons.zoo.planted(settings)")
+    return settings.at_size_of(scene)
 
 
 def _results(scene, settings, steps, workers):
@@ -114,7 +122,7 @@ def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
 
     sample: only this one; the value is then that sample alone. Raises TracerError outside the picture.
     """
-    settings = settings.at_size_of(scene)
+    settings = _asked(scene, settings, steps)
     scene = scene.at(settings)
     if not (0 <= x < settings.width and 0 <= y < settings.height):
         raise TracerError(
