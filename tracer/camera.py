@@ -1,4 +1,4 @@
-"""A right-handed pinhole camera: x to the right, y down the film, looking along `forward`."""
+"""Right-handed cameras, pinhole and thin lens: x to the right, y down the film, looking along `forward`."""
 
 from dataclasses import dataclass
 
@@ -6,6 +6,7 @@ import numpy as np
 
 from tracer.frame import normalize
 from tracer.settings import TracerError
+from tracer.warp import concentric_disk
 
 
 @dataclass(frozen=True)
@@ -13,13 +14,17 @@ class Camera:
     """Where the picture is taken from.
 
     origin: (3,); target: (3,) a point in the middle of the picture; up: (3,); fov_x: horizontal field of
-    view in degrees. Raises TracerError where these do not span a picture.
+    view in degrees; aperture_radius: of a thin lens in metres, 0 for a pinhole; focus_distance: from the lens
+    to the plane, at right angles to the view, in which all is sharp (Cook et al. 1984). Raises TracerError
+    where these do not span a picture.
     """
 
     origin: np.ndarray
     target: np.ndarray
     up_hint: np.ndarray
     fov_x: float
+    aperture_radius: float = 0.0
+    focus_distance: float = 1.0
 
     def __post_init__(self):
         if not 0.0 < self.fov_x < 180.0:
@@ -49,11 +54,21 @@ class Camera:
         """Unit direction of shrinking y, (3,)."""
         return np.cross(self.right, self.forward)
 
-    def rays(self, film, width, height, dtype):
-        """Origins and unit directions, both (3, N), through film positions (2, N) in pixels."""
+    def rays(self, film, width, height, dtype, lens=None):
+        """Origins and unit directions, both (3, N), through film positions (2, N) in pixels.
+
+        lens: (2, N) random numbers where there is an aperture: rays then start evenly over it, and go to
+        where the pinhole's meet the plane of focus.
+        """
         half = np.tan(np.radians(0.5 * self.fov_x))
         x = (film[0] * dtype(2.0 / width) - dtype(1.0)) * dtype(half)
         y = (dtype(height / width) - film[1] * dtype(2.0 / width)) * dtype(half)
         forward, right, up = (v.astype(dtype).reshape(3, 1) for v in (self.forward, self.right, self.up))
-        d = normalize(forward + right * x + up * y)
-        return np.broadcast_to(self.origin.astype(dtype).reshape(3, 1), d.shape), d
+        view = forward + right * x + up * y
+        origin = self.origin.astype(dtype).reshape(3, 1)
+        if lens is None:
+            d = normalize(view)
+            return np.broadcast_to(origin, d.shape), d
+        x, y = dtype(self.aperture_radius) * concentric_disk(lens)
+        aside = right * x + up * y
+        return origin + aside, normalize(view * dtype(self.focus_distance) - aside)

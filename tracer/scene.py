@@ -104,7 +104,9 @@ class Scene:
                 )
                 self._spheres.append((first, center, self.dtype(shape.radius), self.dtype(side)))
                 self._reach[first] = np.abs(shape.center).sum() + shape.radius
-        extent = max(np.abs(self.bounds()).max(), np.abs(self.camera.origin).max())
+        extent = max(
+            np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
+        )
         corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
         self._kernels = [
             shape.kernel(int(first), extent, self.dtype, corners)

@@ -56,7 +56,8 @@ class Wave:
         if self.settings.jitter:
             jitter = self.random(pixel, self.sample, depth, "film")
         film = np.stack((self.x, self.y)).astype(dtype) + jitter
-        o, d = scene.camera.rays(film, self.settings.width, self.settings.height, dtype)
+        lens = self.random(pixel, self.sample, depth, "lens") if scene.camera.aperture_radius else None
+        o, d = scene.camera.rays(film, self.settings.width, self.settings.height, dtype, lens)
         beta = np.ones((3, n), dtype)
         lane = np.arange(n, dtype=np.int32)
         yield CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)

@@ -84,7 +84,9 @@ def load_dict(description, name="scene", folder="."):
     )
     sensors = [key for key, kind in kinds.items() if kind == "sensor"]
     if len(sensors) != 1:
-        raise TracerError(f'a scene has one sensor (type "perspective"); here are {len(sensors)}')
+        raise TracerError(
+            f'a scene has one sensor (type "perspective" or "thinlens"); here are {len(sensors)}'
+        )
     if not surfaces:
         raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])

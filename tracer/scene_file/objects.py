@@ -10,7 +10,7 @@ from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
 
 SHAPES = ("rectangle", "cube", "sphere", "obj", "ply", "stl", "gltf")
-SENSORS = ("perspective",)
+SENSORS = ("perspective", "thinlens")
 
 
 def kind_of(table, place):
@@ -88,7 +88,7 @@ def _mesh(table, matrix, flip, folder):
 def sensor(description, place):
     """Camera, width and height."""
     table = Words(description, place)
-    table.take("type")
+    lens = _lens(table) if table.take("type") == "thinlens" else ()
     matrix = to_world(table.take("to_world", []), f"{place}.to_world")
     width, height = _film(table.take("film", {}), f"{place}.film")
     fov = real(table.take("fov"), f"{place}.fov")
@@ -104,7 +104,17 @@ def sensor(description, place):
         half = np.tan(np.radians(0.5 * fov)) * width / height
         fov = float(np.degrees(2.0 * np.arctan(half)))
     origin, forward = matrix[:3, 3], matrix[:3, 2]
-    return Camera(origin, origin + forward, matrix[:3, 1], fov), width, height
+    return Camera(origin, origin + forward, matrix[:3, 1], fov, *lens), width, height
+
+
+def _lens(table):
+    """Radius of the aperture and distance of the plane that is sharp."""
+    size = [real(table.take(word), f"{table.place}.{word}") for word in ("aperture_radius", "focus_distance")]
+    for word, value in zip(("aperture_radius", "focus_distance"), size, strict=True):
+        if value <= 0.0:
+            hint = '; for none, say type = "perspective"' if word == "aperture_radius" else ""
+            raise TracerError(f"{table.place}.{word}: {value:g} is not above 0{hint}")
+    return size
 
 
 def _film(description, place):
