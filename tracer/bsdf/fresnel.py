@@ -21,8 +21,9 @@ def dielectric(cos, eta):
     g = np.sqrt(np.maximum(square, 0.0))
     eta2 = eta * eta
     with np.errstate(divide="ignore", invalid="ignore"):
-        s = contrast / ((cos + g) * (cos + g))
-        p = contrast * ((eta2 + 1.0) * cos * cos - 1.0) / ((eta2 * cos + g) * (eta2 * cos + g))
+        # (c + g)^2 with g^2 as it is known, not as the root's square: both are exactly 1 at c = 0.
+        s = contrast / (square + cos * (cos + 2.0 * g))
+        p = contrast * ((eta2 + 1.0) * cos * cos - 1.0) / (square + eta2 * cos * (eta2 * cos + 2.0 * g))
     s = np.where(total, 1.0, s)
     p = np.where(total, 1.0, p)
     same = contrast == 0.0

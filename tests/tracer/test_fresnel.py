@@ -1,0 +1,215 @@
+"""Fresnel's reflectances where they are delicate, Schlick's approximation, panes and their exact values."""
+
+import numpy as np
+import pytest
+from truth import ULPS, close, entry, keys
+
+import tracer
+from tracer import Settings
+from tracer.bsdf import Conductor, Dielectric, ThinDielectric, fresnel
+
+ONES = np.ones((3, 1))
+BOTH = pytest.mark.parametrize("dtype", [np.float32, np.float64])
+
+
+def mean(cos, eta, formula="exact", dtype=np.float64):
+    return fresnel.dielectric_mean(np.array([cos], dtype), np.array([eta], dtype), formula)[0][0]
+
+
+@pytest.mark.parametrize("key", keys("fresnel.diffuse_avg."))
+def test_diffuse_light_on_a_dielectric(key):
+    n = np.array([entry(key)[0]["n"]])
+    average = fresnel.diffuse_average(n)[0]
+    if ".internal." in key:  # by the same light both ways, and by the rule the code has for the denser side
+        assert close(fresnel.diffuse_average(1 / n)[0], entry(key)[1])
+        average = 1 - (1 - average) / n[0] ** 2
+    assert close(average, entry(key)[1])
+
+
+@pytest.mark.parametrize("key", keys("schlick.n="))
+def test_schlicks_approximation(key):
+    p, value = entry(key)
+    assert close(mean(np.cos(np.radians(p["theta_deg"])), p["n"], "schlick"), value)
+
+
+@pytest.mark.parametrize("key", keys("schlick.avgerr."))
+def test_schlicks_error_on_average(key):
+    p, value = entry(key)
+    n = np.array([p["n"]])
+    error = fresnel.diffuse_average(n, "schlick") - fresnel.diffuse_average(n)
+    assert close(error[0], value, 1e-12 * 0.1 / abs(value))  # a difference of two averages of about 0.1
+
+
+@pytest.mark.parametrize("key", keys("schlick.maxerr."))
+def test_schlicks_error_at_most(key):
+    p, value = entry(key)
+    error = mean(p["cos_at"], p["n"], "schlick") - mean(p["cos_at"], p["n"])
+    assert close(error, value)
+    cos = np.linspace(0, 1, 2001)
+    eta = np.full(2001, p["n"])
+    both = [fresnel.dielectric_mean(cos, eta, formula)[0] for formula in ("schlick", "exact")]
+    assert np.abs(both[0] - both[1]).max() <= value * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("key", keys("critical."))
+def test_just_inside_the_critical_angle(key):
+    """Near it half of the digits of the cosine are lost in R: sqrt(eps) relative is what float64 can do."""
+    p, value = entry(key)
+    critical = np.sqrt((p["n"] - 1) * (p["n"] + 1)) / p["n"]
+    given = np.finfo(float).eps / p["delta"]  # the cosine's own rounding, over what is left of it
+    assert close(1 - mean(critical + p["delta"], 1 / p["n"]), value, given)
+    assert mean(critical - 1e-9, 1 / p["n"]) == 1
+
+
+@pytest.mark.parametrize("key", keys("slab.R.scalar.", "slab.T.scalar."))
+def test_a_pane_is_all_bounces_between_its_faces(key):
+    p, value = entry(key)
+    cos = np.cos(np.radians([p["theta_deg"]]))
+    R = mean(cos[0], p["n"])
+    if "terms" in p:
+        assert close((1 - R) ** 2 * sum(R ** (2 * j) for j in range(p["terms"])), value)
+        return
+    share = ThinDielectric(np.array([p["n"]]), ONES, ONES).reflectance_at(cos)[0]
+    assert close(share if ".R." in key else 1 - share, value)
+
+
+@pytest.mark.parametrize("key", keys("slab.T.polarised."))
+def test_polarised_light_gets_through_a_pane_otherwise(key):
+    """From Rs and Rp kept apart; what the tracer renders is the value without polarisation."""
+    p, value = entry(key)
+    cos = np.cos(np.radians([p["theta_deg"]]))
+    rs, rp, _ = fresnel.dielectric(cos, np.array([p["n"]]))
+    assert close(0.5 * sum((1 - r) / (1 + r) for r in (rs, rp))[0], value)
+
+
+@BOTH
+def test_s28_index_1_reflects_nothing_at_any_angle(dtype):
+    cos = np.array([1, 0.5, 1e-3, 1e-8, 0], dtype)
+    for formula in ("exact", "schlick"):
+        R, cos_t = fresnel.dielectric_mean(cos, np.ones(5, dtype), formula)
+        assert np.array_equal(cos_t, cos)
+        assert not R[:4].any() or formula == "schlick"  # Schlick's curve ends in 1 whatever the index
+
+
+@pytest.mark.parametrize(("cos", "R"), [(1.0, 2.5e-15), (0.5, 2.5e-14), (1e-3, 2.0746933735e-3)])
+def test_s29_an_index_next_to_1(cos, R):
+    eta = 1 + 1e-7
+    exact = {1.0: 2.5e-15, 0.5: 2.5e-14}
+    got = mean(cos, eta)
+    assert close(got, R, 2e-6 if cos in exact else 1e-9)  # to the digits of the reference
+    # To rounding, against the same formula with 60 digits.
+    assert close(got, by_decimals(cos, eta), 1e-12 + 4 * np.finfo(float).eps * 1e0 / cos)
+    # In float32 the contrast itself is what the index was rounded to.
+    single = np.float32(1 + 2.0**-23)
+    want = by_decimals(float(np.float32(cos)), float(single))
+    assert close(mean(cos, single, dtype=np.float32), want, 8 * np.finfo(np.float32).eps)
+
+
+def by_decimals(cos, eta):
+    """(Rs + Rp)/2 as printed in books, with 60 digits."""
+    from decimal import Decimal, localcontext
+
+    with localcontext() as context:
+        context.prec = 60
+        c, n = Decimal(cos), Decimal(eta)
+        t = (1 - (1 - c * c) / (n * n)).sqrt()
+        rs, rp = (c - n * t) / (c + n * t), (n * c - t) / (n * c + t)
+        return float((rs * rs + rp * rp) / 2)
+
+
+@BOTH
+@pytest.mark.parametrize("eta", [1.5, 1 / 1.5, 2.4, 1.0001])
+def test_s32_grazing_reflectance_rises_to_exactly_1(eta, dtype):
+    cos = np.array([1e-1, 1e-2, 1e-3, 1e-6, 1e-8, 0], dtype)
+    R, cos_t = fresnel.dielectric_mean(cos, np.full(6, eta, dtype))
+    assert (np.diff(R) >= 0).all() and R[-1] == 1 and np.isfinite(cos_t).all()
+    wo = np.stack((np.sqrt(1 - cos * cos), 0 * cos, cos))
+    sample = Dielectric(np.array([eta], dtype), ONES.astype(dtype), ONES.astype(dtype)).sample(
+        wo, np.full((3, 6), 1 - 2.0**-24, dtype)
+    )
+    length = np.sqrt((sample.wi.astype(np.float64) ** 2).sum(axis=0))
+    assert np.abs(length - 1).max() < 4 * np.finfo(dtype).eps
+
+
+@pytest.mark.parametrize("n", [1.33, 1.5, 2.42])
+def test_s33_brewster(n):
+    rs, rp, _ = fresnel.dielectric(np.array([1 / np.sqrt(1 + n * n)]), np.array([n]))
+    assert rp[0] < 1e-30 and close(rs[0], ((n * n - 1) / (n * n + 1)) ** 2)
+
+
+def test_s34_a_light_pipe_neither_loses_nor_gains():
+    """10 000 total reflections inside glass: the throughput stays exactly 1, directions stay unit."""
+    glass = Dielectric(np.array([1.5]), ONES, ONES)
+    wi, beta = np.array([[0.9], [0.1], [-np.sqrt(1 - 0.82)]]), np.ones((3, 1))
+    for _ in range(10_000):
+        sample = glass.sample(wi, np.full((3, 1), 0.999))
+        beta = beta * sample.f / sample.pdf
+        wi = sample.wi * np.array([[1.0], [1.0], [-1.0]])  # the opposite wall faces the other way
+        wi = np.stack((-wi[0], -wi[1], -np.abs(wi[2])))
+    assert (beta == 1).all()
+    assert abs(np.sqrt((wi**2).sum()) - 1) < 1e-12
+
+
+@pytest.mark.slow
+def test_s34_a_light_pipe_in_a_scene():
+    """A block of glass in a shining room: what is caught inside goes round 10 000 times, and what gets
+    out brings exactly what it met."""
+    description = {
+        "sensor": {
+            "type": "perspective",
+            "fov": 10.0,
+            "to_world": [{"look_at": {"origin": [-0.9, 0, 0], "target": [0, 0.85, 0], "up": [0, 0, 1]}}],
+            "film": {"width": 4, "height": 4},
+        },
+        "rod": {"type": "cube", "bsdf": {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}},
+        "room": {
+            "type": "cube",
+            "flip_normals": True,
+            "to_world": [{"scale": 3}],
+            "bsdf": {"type": "diffuse", "reflectance": 0.0},
+            "emitter": {"type": "area", "radiance": 1.0},
+        },
+    }
+    settings = Settings(spp=1, precision=64, max_depth=10_000, strategy="bsdf", roulette="off", jitter=False)
+    picture = tracer.render(tracer.load_dict(description), settings)
+    # The camera is inside the glass, where radiance is the square of the index times as much.
+    assert set(np.unique(picture.rgb)) == {0.0, 2.25}
+    assert picture.rays > 10_000
+
+
+@pytest.mark.parametrize("eta", [0.05, 0.5, 1.5, 4.0])
+def test_s36_a_conductor_without_absorption_is_a_dielectric(eta):
+    cos = np.linspace(0, 1, 501)
+    one = fresnel.conductor_mean(cos, np.full((1, 1), eta), np.zeros((1, 1)))[0]
+    other, _ = fresnel.dielectric_mean(cos, np.full(501, eta))
+    assert (
+        np.abs(one - other).max() < 1e-7
+    )  # next to the critical angle the two forms share half their digits
+    away = np.abs(cos * cos - (1 - eta * eta)) > 1e-2
+    assert np.abs(one - other)[away].max() < 1e-12
+    tiny = fresnel.conductor_mean(cos, np.full((1, 1), eta), np.full((1, 1), 1e-8))[0]
+    assert np.abs(tiny - one)[away].max() < 1e-6  # in proportion to k, steep next to the critical angle
+
+
+@BOTH
+@pytest.mark.parametrize(("eta", "k"), [(0.05, 10.0), (0.166, 3.15), (1e-3, 1e3), (3.0, 1e-8)])
+def test_s36_a_conductor_stays_within_bounds(eta, k, dtype):
+    cos = np.concatenate(([0, 1e-8, 1e-4], np.linspace(0.01, 1, 100))).astype(dtype)
+    columns = (np.full((3, 1), v, dtype) for v in (eta, k))
+    for formula in ("exact", "schlick"):
+        R = Conductor(*columns, ONES.astype(dtype), formula).reflectance_at(cos)
+        columns = (np.full((3, 1), v, dtype) for v in (eta, k))
+        assert R.dtype == dtype and (R >= 0).all() and (R <= 1 + ULPS * np.finfo(dtype).eps).all()
+        assert (R[:, 0] == 1).all()
+
+
+@pytest.mark.parametrize("eta", [1.5, 1 / 1.5, 2.42])
+def test_schlick_is_the_same_from_both_sides(eta):
+    """One interface, one number: from inside too the angle outside decides, and beyond it all is mirrored."""
+    cos = np.linspace(0.01, 1, 200)
+    R, cos_t = fresnel.dielectric_mean(cos, np.full(200, eta), "schlick")
+    passed = R < 1
+    back, _ = fresnel.dielectric_mean(cos_t[passed], np.full(passed.sum(), 1 / eta), "schlick")
+    assert np.allclose(back, R[passed], rtol=1e-9)
+    exact, _ = fresnel.dielectric_mean(cos, np.full(200, eta))
+    assert np.array_equal(exact == 1, R == 1) and np.abs(exact - R).max() < 0.11
