@@ -32,6 +32,11 @@ def shown(field, value, scene, say):
     return several(value)
 
 
+def applies(value):
+    """Whether a field means anything at its event: a derived one that does not is NaN throughout."""
+    return not (np.issubdtype(np.asarray(value).dtype, np.floating) and np.isnan(value).all())
+
+
 def caption(event, scene, say):
     """One or two sentences that say what this event is and does."""
     return CAPTIONS[event.kind.name](event.values, scene, say)

@@ -5,7 +5,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from viewer.caption import caption, shown, why_dead
+from viewer.caption import applies, caption, shown, why_dead
 from viewer.words import Speaker
 
 _LEDGER_KINDS = ("hit", "light", "escape")
@@ -36,7 +36,7 @@ def _print_path(path, scene, say, console):
         console.print(head)
         for field in event.kind.fields:
             value = event.values[field.name]
-            if _applies(value):
+            if applies(value):
                 _print_field(field, value, event.kind.name not in explained, scene, say, console)
         explained.add(event.kind.name)
     dead = why_dead(path, scene, say)
@@ -44,11 +44,6 @@ def _print_path(path, scene, say, console):
         console.print()
         console.print(dead)
     _print_ledger(path, console)
-
-
-def _applies(value):
-    """Whether a derived field means anything at this event."""
-    return not (np.issubdtype(np.asarray(value).dtype, np.floating) and np.isnan(value).all())
 
 
 def _print_field(field, value, explain, scene, say, console):

@@ -1,7 +1,7 @@
 """Every number of the current event, with its meaning and unit."""
 
 from tracer.recorder import plain
-from viewer.caption import shown
+from viewer.caption import applies, shown
 from viewer.numerals import css
 from viewer.panels.panel import Panel
 
@@ -20,9 +20,10 @@ COLOURED = ("Le", "f", "beta", "beta_before", "contribution", "radiance", "F")
 
 
 def show(session, say):
-    """One row a field; labels and units are the schema's own."""
+    """One row for each field that means something here; labels and units are the schema's own."""
     kind, values = session.event.kind, session.event.values
-    return {"rows": [_row(kind, field, values[field.name], session.scene, say) for field in kind.fields]}
+    fields = [field for field in kind.fields if applies(values[field.name])]
+    return {"rows": [_row(kind, field, values[field.name], session.scene, say) for field in fields]}
 
 
 def _row(kind, field, value, scene, say):
