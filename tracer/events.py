@@ -15,7 +15,7 @@ import numpy as np
 from tracer.frame import Frame, dot
 
 END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
-TECHNIQUES = ("area", "solid_angle", "cone", "delta")
+TECHNIQUES = ("area", "solid_angle", "cone", "delta", "image")
 LOBES = ("none", "diffuse", "reflection", "transmission")
 
 
@@ -102,7 +102,8 @@ def _light_cos(event, vertex, scene):
 
 def _light_pdf_area(event, vertex, scene):
     cos = np.maximum(_light_cos(event, vertex, scene), 0.0)
-    return event["pdf"] / event["pick"] * cos / (event["distance"] * event["distance"])
+    density = event["pdf"] / event["pick"] * cos / (event["distance"] * event["distance"])
+    return np.where(event["primitive"] >= 0, density, 0.0)
 
 
 def _blocker(event, vertex, scene):
@@ -213,14 +214,25 @@ LIGHT = Kind(
     "A point on a light is sampled for direct illumination.",
     (
         Field("light", "which light", (), "light"),
-        Field("primitive", "number of the flat face or sphere of the light that q lies on", (), "index"),
+        Field(
+            "primitive",
+            "number of the flat face or sphere of the light that q lies on, -1 if on none",
+            (),
+            "index",
+        ),
         Field("pick", "probability of choosing this light", (), "probability"),
         Field("technique", "how the point was chosen", (), "choice", choices=TECHNIQUES),
         Field("q", "point on the light", (3,), "point", "m"),
         Field("nq", "normal of the light at q", (3,), "unit vector"),
         Field("wi", "direction to q", (3,), "unit vector"),
         Field("distance", "distance to q", (), "positive", "m"),
-        Field("Le", "radiance the light sends back along wi", (3,), "non-negative", "W/m²/sr"),
+        Field(
+            "Le",
+            "radiance the light sends back along wi; of a delta light the irradiance facing it",
+            (3,),
+            "non-negative",
+            "W/m²/sr",
+        ),
         Field("visible", "whether q is seen (not asked where nothing could arrive)", (), "flag"),
         Field("blocker", "first shape in the way, -1 if none", (), "shape", derive=_blocker),
         Field(
@@ -234,9 +246,28 @@ LIGHT = Kind(
         Field("f", "BSDF from wi to wo, without the cosine", (3,), "non-negative", "1/sr"),
         Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
         Field("cos_light", "cosine at the light, negative behind it", (), "cosine", derive=_light_cos),
-        Field("pdf_area", "density of q on its light's area", (), "density", "1/m²", derive=_light_pdf_area),
-        Field("pdf", "density of wi, choice of the light included", (), "density", "1/sr"),
-        Field("pdf_bsdf", "density with which a bounce would have given wi", (), "density", "1/sr"),
+        Field(
+            "pdf_area",
+            "density of q on its light's area, 0 if it is no shape",
+            (),
+            "density",
+            "1/m²",
+            derive=_light_pdf_area,
+        ),
+        Field(
+            "pdf",
+            "density of wi, choice of the light included; of a delta light only that choice",
+            (),
+            "density",
+            "1/sr",
+        ),
+        Field(
+            "pdf_bsdf",
+            "density with which a bounce would have given wi; 0 if none meets the light",
+            (),
+            "density",
+            "1/sr",
+        ),
         *_microfacet(),
         Field("w", "MIS weight of finding this light by sampling it", (), "probability"),
         Field("beta", "throughput at this vertex", (3,), "non-negative"),

@@ -8,6 +8,7 @@ import numpy as np
 from tracer.bsdf.table import BsdfTable
 from tracer.frame import dot, length
 from tracer.light.faces import shining_faces
+from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
 from tracer.shape.rays import Rays, error_bound, leave
 from tracer.shape.sphere import Sphere
@@ -31,6 +32,7 @@ class Definition(NamedTuple):
     width: int
     height: int
     source: tuple | None = None  # the description it was made from, and the folder of its files
+    emitters: tuple = ()  # lights that are no shapes
 
 
 class Hit(NamedTuple):
@@ -104,32 +106,40 @@ class Scene:
                 )
                 self._spheres.append((first, center, self.dtype(shape.radius), self.dtype(side)))
                 self._reach[first] = np.abs(shape.center).sum() + shape.radius
+        self._reach = np.append(self._reach, self.dtype(0.0))  # of primitive -1: a light that is no shape
         extent = max(
             np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
         )
         corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
+        # Lamps first: of surfaces at exactly the same distance the first is met, so that one in the plane of
+        # a wall is seen before it.
+        order = sorted(range(len(self.shapes)), key=lambda k: self.definition.surfaces[k].radiance is None)
         self._kernels = [
-            shape.kernel(int(first), extent, self.dtype, corners)
-            for first, shape in zip(self.first, self.shapes, strict=True)
+            self.shapes[k].kernel(int(self.first[k]), extent, self.dtype, corners) for k in order
         ]
 
     def _prepare_lights(self):
         shining = [
             k for k, s in enumerate(self.definition.surfaces) if s.radiance is not None and s.radiance.any()
         ]
-        self.light_names = tuple(self.shapes[k].name for k in shining)
+        ball = Ball.around(*self.bounds())
+        others = tuple(e for e in self.definition.emitters if luminance(e.power(ball)) > 0.0)
+        self.light_names = tuple(self.shapes[k].name for k in shining) + tuple(e.name for e in others)
+        self.unmeetable = tuple(e.name for e in others if e.technique == DELTA)
         light_of_shape = np.full(len(self.shapes), -1, np.int32)
         light_of_shape[shining] = np.arange(len(shining))
         self.light_of = light_of_shape[self.shape_of]
         self.lights = None
-        if shining:
+        if self.light_names:
             faces = [
                 face
                 for light, k in enumerate(shining)
                 for face in shining_faces(light, self.shapes[k], int(self.first[k]))
             ]
-            radiance = np.stack([self.definition.surfaces[k].radiance for k in shining], axis=1)
-            self.lights = Lights(faces, radiance, self.dtype, self.light_sampling)
+            radiance = np.zeros((3, len(shining)))
+            for light, k in enumerate(shining):
+                radiance[:, light] = self.definition.surfaces[k].radiance
+            self.lights = Lights(faces, radiance, others, ball, self.dtype, self.light_sampling)
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
@@ -212,6 +222,11 @@ class Scene:
                 hit.primitive[lanes], *(v.take(lanes, axis=1) for v in (vertex, hit.p, hit.ng))
             )
         return Le, pdf
+
+    def environment(self, d):
+        """Radiance (3, N) that comes from outside the scene against d (3, N), and the density (N,) in sr^-1
+        with which light sampling would have given d; None if nothing does."""
+        return self.lights.environment(d) if self.lights is not None and self.lights.surround else None
 
     def sample_light(self, p, u):
         """A point on a light for each receiver p (3, N), from u (3, N), as a LightSample."""

@@ -16,7 +16,7 @@ def direct(scene, settings, wave):
     steps = wave.steps
     paths = yield from wave.begin(scene)
     while paths.lane.size:
-        paths, hit = yield from wave.meet(scene, paths)
+        paths, hit = yield from wave.meet(scene, paths, "light")
 
         # Le: the surface itself shines, and no light sample has counted it yet
         Le, pdf_light = scene.emission(hit, paths.vertex)

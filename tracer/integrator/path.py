@@ -7,15 +7,17 @@ mostly by the technique that is better at it. settings.strategy keeps only one o
 """
 
 from tracer.frame import Frame
-from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights
+from tracer.integrator.stages import add_light, go_on, hit_event, refuse_unmeetable, sample_lights
 
 
 def path(scene, settings, wave):
     """Events of a wave of paths, stage by stage."""
     steps, strategy = wave.steps, settings.strategy
+    if strategy == "bsdf":
+        refuse_unmeetable(scene, "path with strategy bsdf")
     paths = yield from wave.begin(scene)
     while paths.lane.size:
-        paths, hit = yield from wave.meet(scene, paths)
+        paths, hit = yield from wave.meet(scene, paths, strategy)
 
         # Le: the surface itself shines, weighted against a light sample that would have found it
         Le, pdf_light = scene.emission(hit, paths.vertex)

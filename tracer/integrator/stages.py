@@ -4,8 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE
+from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES
 from tracer.frame import cos_theta, dot
+from tracer.settings import TracerError
+
+_DELTA = TECHNIQUES.index("delta")
 
 
 class Direct(NamedTuple):
@@ -17,6 +20,15 @@ class Direct(NamedTuple):
     cos: np.ndarray  # (N,) absolute cosine there
     pdf_bsdf: np.ndarray  # (N,) density of a bounce in the same direction
     u: np.ndarray  # (3, N) the numbers used
+
+
+def refuse_unmeetable(scene, who):
+    """TracerError if bounces alone cannot find one of the lights."""
+    if scene.unmeetable:
+        raise TracerError(
+            f"{who}: no ray ever meets {scene.unmeetable[0]}, a light without size; "
+            "use integrator direct, or path with strategy mis or light"
+        )
 
 
 def hit_event(paths, hit, **light):
@@ -55,6 +67,8 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
     if scene.has_smooth_normals:
         f = f * sides_agree(hit, light.wi)
     pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi)
+    if scene.lights.any_delta:  # no bounce meets these lights: their samples are never weighted
+        pdf_bsdf = np.where(light.technique == _DELTA, 0.0, pdf_bsdf).astype(f.dtype)
     return Direct(lanes, light, f, np.abs(cos_theta(wi)), pdf_bsdf, u)
 
 

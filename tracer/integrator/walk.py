@@ -6,14 +6,15 @@ The integral is estimated by one direction wi drawn from the BSDF, and Li there 
 """
 
 from tracer.frame import Frame
-from tracer.integrator.stages import go_on, hit_event
+from tracer.integrator.stages import go_on, hit_event, refuse_unmeetable
 
 
 def walk(scene, settings, wave):
     """Events of a wave of paths, stage by stage."""
+    refuse_unmeetable(scene, "walk")
     paths = yield from wave.begin(scene)
     while paths.lane.size:
-        paths, hit = yield from wave.meet(scene, paths)
+        paths, hit = yield from wave.meet(scene, paths, "bsdf")
 
         # Le: the surface itself shines
         Le, pdf_light = scene.emission(hit, paths.vertex)

@@ -70,21 +70,35 @@ class Wave:
             return paths.take(np.empty(0, np.intp))
         return paths
 
-    def meet(self, scene, paths):
-        """Yield the events of rays that meet nothing; return the other paths and their hits."""
+    def meet(self, scene, paths, strategy):
+        """Yield the events of rays that meet nothing, with what the environment sends along them; return the
+        other paths and their hits. strategy: how lights are found, for the weight."""
         t, primitive = scene.intersect(paths.o, paths.d, paths.source)
         self.rays += t.size
         met = primitive >= 0
         if not met.all():
             lost = paths.take(np.flatnonzero(~met))
-            dark = np.zeros_like(lost.beta)
-            yield ESCAPE(
-                lost.lane, lost.depth, d=lost.d, Le=dark, pdf_light=dark[0], w=dark[0], contribution=dark
-            )
+            lost, event = self._escape(scene, lost, strategy)
+            yield event
             yield self.end(lost, "escaped")
             lanes = np.flatnonzero(met)
             paths, t, primitive = paths.take(lanes), t[lanes], primitive[lanes]
         return paths, scene.hit(paths.o, paths.d, t, primitive)
+
+    def _escape(self, scene, paths, strategy):
+        """Paths that leave the scene, with the environment's light, and the event of it."""
+        w = pdf = np.zeros_like(paths.pdf_bsdf)
+        Le = contribution = np.zeros_like(paths.beta)
+        around = scene.environment(paths.d)
+        if around is not None:
+            Le, pdf = around
+            w = self.steps.emission_weight(self.settings, strategy, paths.pdf_bsdf, pdf)
+            contribution = paths.beta * Le * w
+            paths = paths._replace(L=paths.L + contribution)
+        event = ESCAPE(
+            paths.lane, paths.depth, d=paths.d, Le=Le, pdf_light=pdf, w=w, contribution=contribution
+        )
+        return paths, event
 
     def stop(self, paths, over, reason, *columns):
         """Yield the end of the paths that are over, (N,) bool; return the others, and their columns."""

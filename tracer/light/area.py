@@ -124,7 +124,7 @@ class AreaLights:
         parts = []
         for technique, draw in self._draw.items():
             lanes = np.flatnonzero(way == technique)
-            if lanes.size:
+            if lanes.size or not parts:
                 parts.append((lanes, draw(self, p[:, lanes], u[:, lanes], face[lanes])))
         return scattered(parts, p.shape[1])
 

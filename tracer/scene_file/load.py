@@ -8,7 +8,7 @@ import copy
 from pathlib import Path
 
 from tracer.scene import Definition, Scene, Surface
-from tracer.scene_file import materials, objects
+from tracer.scene_file import emitters, materials, objects
 from tracer.scene_file.words import Words, listed
 from tracer.settings import TracerError
 
@@ -92,14 +92,18 @@ def load_dict(description, name="scene", folder="."):
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
     surfaces = _visible(surfaces, bsdfs)
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
+    lights = (
+        emitters.emitter(named[key], key, Path(folder)) for key, kind in kinds.items() if kind == "emitter"
+    )
+    lights = emitters.only_one_sky(tuple(lights))
     source = copy.deepcopy(description), Path(folder)
-    return Scene(Definition(name, surfaces, used, camera, width, height, source))
+    return Scene(Definition(name, surfaces, used, camera, width, height, source, lights))
 
 
 def _surface(table, bsdfs, folder):
     """One shape with its material, which is added to `bsdfs` if it is written inside the shape."""
     shape = objects.shape(table, folder)
-    radiance = objects.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
+    radiance = emitters.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
     given = table.take("bsdf", None)
     table.finish()
     if given is None:

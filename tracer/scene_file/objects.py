@@ -3,9 +3,10 @@
 import numpy as np
 
 from tracer.camera import Camera
+from tracer.scene_file.emitters import EMITTERS
 from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.to_world import to_world
-from tracer.scene_file.words import Words, colour, listed, near, real, triple
+from tracer.scene_file.words import Words, listed, near, real, triple
 from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
 
@@ -14,26 +15,15 @@ SENSORS = ("perspective", "thinlens")
 
 
 def kind_of(table, place):
-    """Whether a named object is a "shape", a "bsdf" or a "sensor"."""
+    """Whether a named object is a "shape", a "bsdf", an "emitter" or a "sensor"."""
     kind = Words(table, place).take("type")
-    for family, known in (("shape", SHAPES), ("bsdf", BSDFS), ("sensor", SENSORS)):
+    families = {"shape": SHAPES, "bsdf": BSDFS, "emitter": EMITTERS, "sensor": SENSORS}
+    for family, known in families.items():
         if kind in known:
             return family
-    everything = (*SHAPES, *BSDFS, *SENSORS)
+    everything = (*SHAPES, *BSDFS, *EMITTERS, *SENSORS)
     hint = near(kind, everything)
     raise TracerError(f"{place}.type: {kind!r} is not supported; {hint}known: {listed(everything)}")
-
-
-def area_emitter(description, place):
-    """Radiance (3,) of a shining shape, None if it does not shine."""
-    if description is None:
-        return None
-    table = Words(description, place)
-    if table.take("type") != "area":
-        raise TracerError(f"{place}.type: {description['type']!r} is not supported on a shape; known: area")
-    radiance = colour(table.take("radiance"), f"{place}.radiance")
-    table.finish()
-    return radiance
 
 
 def shape(table, folder):
