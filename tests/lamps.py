@@ -73,7 +73,7 @@ def irradiance(light, normal=UP):
 
 
 def close(samples, value, sigmas=4.0, bar=0.01, slack=0.0):
-    """Whether the mean of samples (N,) is the value: `sigmas` standard errors off at most, and those `bar`."""
+    """Whether the mean of samples (N,) is the value but for `sigmas` standard errors, at most `bar` of it."""
     error = samples.std(ddof=1) / np.sqrt(samples.size)
     assert sigmas * error <= bar * abs(value) + 1e-300, f"standard error {error / value}"
     return abs(samples.mean() - value) <= sigmas * error + (1e-12 + slack) * abs(value)

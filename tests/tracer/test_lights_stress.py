@@ -1,4 +1,4 @@
-"""What a tracer must survive of lamps: the cases S16 to S26 of the table of stress cases, in both precisions."""
+"""What a tracer must survive of lamps: stress cases S16 to S26, in both precisions."""
 
 import warnings
 
