@@ -28,6 +28,7 @@ FLOORS = {
     "tracer.picture": 1,
     "tracer.recorder": 1,
     "tracer.light": 2,
+    "tracer.material_bench": 2,
     "tracer.scene": 3,
     "tracer.scene_file": 4,
     "tracer.integrator": 4,

@@ -44,9 +44,10 @@ def conductor(cos, eta, k):
     a2b2 = np.sqrt(t0 * t0 + 4.0 * eta2 * k2)
     a = np.sqrt(np.maximum(0.5 * (a2b2 + t0), 0.0))
     s_sum, s_part = a2b2 + cos2, 2.0 * cos * a
-    rs = (s_sum - s_part) / (s_sum + s_part)
+    least = np.finfo(np.result_type(cos, eta)).tiny  # an index of exactly 1 at a cosine of 0 has sums of 0
+    rs = (s_sum - s_part) / np.maximum(s_sum + s_part, least)
     p_sum, p_part = cos2 * a2b2 + sin2 * sin2, s_part * sin2
-    rp = rs * (p_sum - p_part) / (p_sum + p_part)
+    rp = rs * (p_sum - p_part) / np.maximum(p_sum + p_part, least)
     return np.clip(rs, 0.0, 1.0), np.clip(rp, 0.0, 1.0)
 
 
