@@ -117,7 +117,7 @@ def region(name, width, height):
 
 
 def homework(name, settings, steps=RIGHT, pixels=None):
-    """A region's mean against the homework's: 2 % and SIGMAS standard errors are allowed.
+    """A region's mean against the homework's: 1 % and SIGMAS standard errors are allowed.
 
     pixels: how many of the region's to trace, spread evenly; all of them if None.
     """
@@ -127,7 +127,7 @@ def homework(name, settings, steps=RIGHT, pixels=None):
         numbers = numbers[np.linspace(0, numbers.size - 1, min(pixels, numbers.size)).astype(int)]
     mean, error = mean_and_error(samples(scene, settings, steps, numbers))
     truth = np.array(HOMEWORK[name][1])
-    return off(mean, truth, error, 0.02 * truth), mean, error
+    return off(mean, truth, error, 0.01 * truth), mean, error
 
 
 def some_events(scene, settings, steps, *kinds):

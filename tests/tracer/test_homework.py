@@ -28,8 +28,16 @@ REGIONS = [name for name in checks.HOMEWORK if name != "picture"]
 
 
 def as_in_the_homework(suite_seed, side, spp):
+    """The homework's direct light is a point uniform on the lamp's area, its samples go through the centres."""
     return Settings(
-        width=side, height=side, spp=spp, seed=suite_seed, integrator="direct", max_depth=-1, jitter=False
+        width=side,
+        height=side,
+        spp=spp,
+        seed=suite_seed,
+        integrator="direct",
+        light_sampling="area",
+        max_depth=-1,
+        jitter=False,
     )
 
 
