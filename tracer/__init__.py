@@ -17,7 +17,7 @@ Conventions, stated here and nowhere else:
 
 from tracer.engine import inspect, render
 from tracer.film import fold
-from tracer.picture import write
+from tracer.picture import read, write
 from tracer.scene_file import SceneWarning, built_in_scenes, export, load, load_dict
 from tracer.settings import Settings, TracerError
 
@@ -31,6 +31,7 @@ __all__ = [
     "inspect",
     "load",
     "load_dict",
+    "read",
     "render",
     "write",
 ]

@@ -4,16 +4,15 @@ import json
 import os
 import sys
 import warnings
-from dataclasses import fields, make_dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import App, CycloptsError, Parameter
 
 import tracer
-from lessons.zoo import planted
-from tracer.settings import Settings, TracerError
+from tracer.settings import TracerError
 from viewer.export import export
+from viewer.options import Json, PathOptions, Whole, settings_and_steps, two_whole
 
 
 def _version():
@@ -29,62 +28,13 @@ app = App(
 )
 
 
-def _whole(type_, tokens):
-    """A whole number, and not a rounded one."""
-    return _integer(tokens[0].value)
-
-
-def _two_whole(type_, tokens):
-    return tuple(_integer(token.value, f"{token.keyword}: ") for token in tokens)
-
-
-def _integer(text, place=""):
-    try:
-        return int(text)
-    except ValueError:
-        raise TracerError(f"{place}{text!r} is not a whole number") from None
-
-
-def _path_options():
-    """The options that decide a path's numbers, made from the one place where they are declared."""
-    text = "width and height in pixels (default: the scene's)"
-    size = Annotated[
-        tuple[int, int] | None, Parameter(help=text, converter=_two_whole, n_tokens=2, negative=())
-    ]
-    columns: list[Any] = [("size", size, None)]
-    for f in fields(Settings):
-        if f.name in ("width", "height"):
-            continue
-        choices = f.metadata["choices"]
-        text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
-        converter = _whole if f.type is int else None
-        columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
-    return Parameter(name="*", group="Path options")(
-        make_dataclass("PathOptions", columns, frozen=True, namespace={"__module__": __name__})
-    )
-
-
-PathOptions = _path_options()
-Whole = Parameter(converter=_whole)
-Json = Annotated[bool, Parameter(help="print one JSON document and nothing else", negative=())]
-
-
-def _settings(options):
-    """Settings and named steps that the path options ask for."""
-    options = options or PathOptions()
-    width, height = options.size or (None, None)
-    names = [f.name for f in fields(Settings) if f.name not in ("width", "height")]
-    settings = Settings(width=width, height=height, **{name: getattr(options, name) for name in names})
-    return settings, planted(settings)
-
-
 @app.command
 def render(
     scene: str,
     /,
     *,
     output: Annotated[Path | None, Parameter(name=["-o", "--output"])] = None,
-    options: PathOptions | None = None,  # type: ignore[valid-type]
+    options: PathOptions | None = None,
     engine: str = "auto",
     workers: Annotated[int | None, Whole] = None,
     json: Json = False,
@@ -106,13 +56,13 @@ def render(
         raise TracerError(f"engine: {engine!r} is not known; choose one of auto, numpy")
     if workers is not None and not 1 <= workers <= 1024:
         raise TracerError(f"workers: {workers} is not between 1 and 1024")
-    settings, steps = _settings(options)
+    settings, steps = settings_and_steps(options)
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.png") if output is None else output
     tracer.picture.check_path(path)
     with _progress("rendering") as progress:
         picture = tracer.render(loaded, settings, progress, workers or os.cpu_count() or 1, steps)
-    tracer.write(picture.rgb, path)
+    tracer.write(picture, path, scene=str(scene))
     _report(loaded, picture, path, json)
     return 0 if picture.complete else 130
 
@@ -156,9 +106,9 @@ def inspect(
     scene: str,
     /,
     *,
-    pixel: Annotated[tuple[int, int], Parameter(converter=_two_whole, n_tokens=2)],
+    pixel: Annotated[tuple[int, int], Parameter(converter=two_whole, n_tokens=2)],
     sample: Annotated[int | None, Whole] = None,
-    options: PathOptions | None = None,  # type: ignore[valid-type]
+    options: PathOptions | None = None,
     json: Json = False,
 ):
     """Show the events of a pixel's paths, and how their light adds up to the pixel.
@@ -172,7 +122,7 @@ def inspect(
     sample
         Only this sample of the pixel (default: all; the brightest one is then shown event by event).
     """
-    settings, steps = _settings(options)
+    settings, steps = settings_and_steps(options)
     loaded = tracer.load(scene)
     record = tracer.inspect(loaded, settings, *pixel, sample, steps)
     prepared = loaded.at(record.settings)
@@ -185,13 +135,57 @@ def inspect(
 
 
 @app.command
+def diff(
+    a: Path,
+    b: Path,
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["-o", "--output"])] = None,
+    alpha: float = 0.01,
+    json: Json = False,
+):
+    """Compare two pictures: is their difference more than noise? Exit code 0 if they are the same, 1 if not.
+
+    Two .exr of castray from different seeds are compared by a z-test; others by their error only.
+
+    Parameters
+    ----------
+    a
+        The picture to judge.
+    b
+        The reference.
+    output
+        Where a map goes, blue where a is darker, red where brighter: z of each pixel and Z around it, to +-5.
+    alpha
+        Chance that two right pictures are called different.
+    """
+    from tracer.testing import compare
+    from viewer import diff as words
+
+    if not 0.0 < alpha < 1.0:
+        raise TracerError(f"alpha: {alpha} is not between 0 and 1")
+    if output is not None:
+        tracer.picture.check_path(output)
+    names = str(a), str(b)
+    pictures = tracer.read(a), tracer.read(b)
+    verdict = compare(*pictures, alpha, names)
+    if output is not None:
+        tracer.write(words.drawing(*pictures, verdict), output)
+    if json:
+        _print_json(words.as_dict(verdict, names))
+    else:
+        print(*words.lines(verdict, names), sep="\n")
+    return 0 if verdict.same else 1
+
+
+@app.command
 def view(
     scene: str = "cornell_unit",
     /,
     *,
     port: Annotated[int | None, Whole] = None,
     browser: bool = True,
-    options: PathOptions | None = None,  # type: ignore[valid-type]
+    options: PathOptions | None = None,
 ):
     """Open the viewer: click a pixel, step through its paths. Prints its address.
 
@@ -212,7 +206,7 @@ def view(
     if is_link(scene):
         viewer_app.serve_link(scene, port, browser)
         return
-    settings, _ = _settings(options)
+    settings, _ = settings_and_steps(options)
     viewer_app.serve(tracer.load(scene), settings, port, browser)
 
 

@@ -1,10 +1,13 @@
-"""Pictures on disk: OpenEXR and NumPy keep the linear numbers, PNG is for looking at."""
+"""Pictures to disk, whole or not at all."""
 
+import json
 import os
 from pathlib import Path
 
 import numpy as np
 
+from tracer.picture.srgb import to_srgb
+from tracer.picture.stored import MARK, PREFIX, StoredPicture
 from tracer.settings import TracerError
 
 FORMATS = (".exr", ".png", ".npy")
@@ -28,14 +31,17 @@ def check_place(path):
         raise TracerError(f"{path}: cannot be written there; choose another folder or change its permissions")
 
 
-def write(rgb, path):
-    """Write a linear picture (H, W, 3) float32; the file appears whole or not at all.
+def write(picture, path, **notes):
+    """Write a linear picture: an array (H, W, 3) float32, or what has .rgb, .variance and .samples.
 
-    Raises TracerError where that is impossible.
+    An .exr keeps all three, and the settings and `notes` (words about it, such as scene="cornell") in its
+    header. The file appears whole or not at all. Raises TracerError where that is impossible.
     """
     check_path(path)
     writer = {".exr": _write_exr, ".png": _write_png, ".npy": _write_npy}[Path(path).suffix.lower()]
-    write_whole(path, lambda beside: writer(rgb, beside))
+    if not hasattr(picture, "rgb"):
+        picture = StoredPicture(picture)
+    write_whole(path, lambda beside: writer(picture, beside, notes))
 
 
 def write_whole(path, write):
@@ -64,26 +70,28 @@ def _umask():
     return mask
 
 
-def _write_exr(rgb, path):
+def _write_exr(picture, path, notes):
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    with OpenEXR.File(header, {"RGB": np.ascontiguousarray(rgb)}) as file:
+    channels = {"RGB": np.ascontiguousarray(picture.rgb)}
+    if picture.variance is not None:
+        channels["variance"] = np.ascontiguousarray(picture.variance)
+        channels["samples"] = np.ascontiguousarray(picture.samples, np.uint32)
+        header[MARK] = "variance: of each pixel's mean; samples: how many a pixel has"
+    settings = getattr(picture, "settings", None)
+    if settings is not None:
+        notes = {**notes, "settings": settings if isinstance(settings, dict) else settings.as_dict()}
+    header |= {PREFIX + name: json.dumps(value) for name, value in notes.items() if value is not None}
+    with OpenEXR.File(header, channels) as file:
         file.write(path)
 
 
-def _write_png(rgb, path):
+def _write_png(picture, path, notes):
     from PIL import Image
 
-    Image.fromarray(to_srgb(rgb)).save(path)
+    Image.fromarray(to_srgb(picture.rgb)).save(path)
 
 
-def _write_npy(rgb, path):
-    np.save(path, rgb)
-
-
-def to_srgb(rgb, exposure=0.0):
-    """Linear (..., 3) to 8-bit sRGB (IEC 61966-2-1); exposure in stops; clipped, NaN black."""
-    linear = np.clip(np.nan_to_num(rgb * 2.0**exposure, nan=0.0, posinf=1.0, neginf=0.0), 0.0, 1.0)
-    curve = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1.0 / 2.4) - 0.055)
-    return (255.0 * curve + 0.5).astype(np.uint8)
+def _write_npy(picture, path, notes):
+    np.save(path, picture.rgb)
