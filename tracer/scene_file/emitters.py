@@ -7,7 +7,7 @@ from tracer.light.directional import Directional
 from tracer.light.envmap import Envmap
 from tracer.light.point import Point
 from tracer.scene_file.to_world import to_world
-from tracer.scene_file.words import Words, colour, real, triple
+from tracer.scene_file.words import Words, colour, real, shown, triple
 from tracer.settings import TracerError
 
 EMITTERS = ("point", "directional", "constant", "envmap")
@@ -37,7 +37,9 @@ def area_emitter(description, place):
         return None
     table = Words(description, place)
     if table.take("type") != "area":
-        raise TracerError(f"{place}.type: {description['type']!r} is not supported on a shape; known: area")
+        raise TracerError(
+            f"{place}.type: {shown(description['type'])} is not supported on a shape; known: area"
+        )
     radiance = colour(table.take("radiance"), f"{place}.radiance")
     table.finish()
     return radiance
@@ -77,7 +79,7 @@ def _envmap(table, folder):
 
     place, filename = table.place, table.take("filename")
     if not isinstance(filename, str):
-        raise TracerError(f"{place}.filename: {filename!r} is not the name of a file")
+        raise TracerError(f"{place}.filename: {shown(filename)} is not the name of a file")
     matrix = _matrix(table)[:3, :3]
     scale = real(table.take("scale", 1.0), f"{place}.scale", 0.0)
     if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-9):

@@ -8,8 +8,8 @@ import copy
 from pathlib import Path
 
 from tracer.scene import Definition, Scene, Surface
-from tracer.scene_file import emitters, materials, objects
-from tracer.scene_file.words import Words, listed
+from tracer.scene_file import emitters, limits, materials, objects
+from tracer.scene_file.words import Words, listed, shown
 from tracer.settings import TracerError
 
 BUILT_IN = Path(__file__).resolve().parents[2] / "scenes"
@@ -73,7 +73,9 @@ def load_dict(description, name="scene", folder="."):
         raise TracerError("a scene is a table of named objects")
     named = {key: value for key, value in description.items() if key != "type"}
     if description.get("type", "scene") != "scene":
-        raise TracerError(f'type: {description["type"]!r} at the top; a scene says "scene" or nothing there')
+        raise TracerError(
+            f'type: {shown(description["type"])} at the top; a scene says "scene" or nothing there'
+        )
     kinds = {key: objects.kind_of(value, key) for key, value in named.items()}
     described = {key: named[key] for key, kind in kinds.items() if kind == "bsdf"}
     bsdfs = {key: materials.bsdf(table, key, described) for key, table in described.items()}
@@ -90,6 +92,7 @@ def load_dict(description, name="scene", folder="."):
     if not surfaces:
         raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
+    limits.check(surfaces, camera)
     surfaces = _visible(surfaces, bsdfs)
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
     lights = (
@@ -120,10 +123,9 @@ def _surface(table, bsdfs, folder):
         inline = f"{table.place}.bsdf"
         bsdfs[inline] = materials.bsdf(given, inline)
         return Surface(shape, inline, radiance)
-    if given not in bsdfs:
-        raise TracerError(
-            f"{table.place}.bsdf: no material {given!r} in this scene; there are {listed(bsdfs) or 'none'}"
-        )
+    if not isinstance(given, str) or given not in bsdfs:
+        known = listed(bsdfs) or "none"
+        raise TracerError(f"{table.place}.bsdf: no material {shown(given)} in this scene; there are {known}")
     return Surface(shape, given, radiance)
 
 

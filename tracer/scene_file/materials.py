@@ -15,7 +15,7 @@ from tracer.bsdf import (
 )
 from tracer.bsdf.metals import METALS, index_of
 from tracer.bsdf.microfacet import DISTRIBUTIONS
-from tracer.scene_file.words import MISSING, Words, colour, listed, near, real
+from tracer.scene_file.words import LARGEST, MISSING, Words, colour, listed, near, real, shown
 from tracer.settings import TracerError
 
 # Indices of refraction at 589 nm, between 0 and 20 degrees Celsius, by the names and values Mitsuba uses.
@@ -56,7 +56,7 @@ def bsdf(description, place, others=None):
     table = Words(description, place)
     kind = table.take("type")
     if kind not in BSDFS:
-        raise TracerError(f"{place}.type: {kind!r} is not a material; known: {listed(BSDFS)}")
+        raise TracerError(f"{place}.type: {shown(kind)} is not a material; known: {listed(BSDFS)}")
     material = _two_sided(table, others or {}) if kind == "twosided" else _READERS[kind](table)
     table.finish()
     return material
@@ -89,9 +89,9 @@ def _metal(table):
         if (eta + k == 0.0).any():
             raise TracerError(f"{table.place}.eta: an index of 0 + 0i is that of no metal")
         return eta, k, factor
-    if material not in METALS:
+    if not isinstance(material, str) or material not in METALS:
         known = f'{listed(METALS)}, "none" (a mirror), or give eta and k'
-        raise TracerError(f"{table.place}.material: {material!r} is not known; known: {known}")
+        raise TracerError(f"{table.place}.material: {shown(material)} is not known; known: {known}")
     eta, k = index_of(material)
     return eta[:, None], k[:, None], factor
 
@@ -131,7 +131,7 @@ def _coat(table):
     specular = _column(table, "specular_reflectance", 1.0, 1.0)
     nonlinear = table.take("nonlinear", False)
     if not isinstance(nonlinear, bool):
-        raise TracerError(f"{table.place}.nonlinear: {nonlinear!r} is neither true nor false")
+        raise TracerError(f"{table.place}.nonlinear: {shown(nonlinear)} is neither true nor false")
     return diffuse, specular, nonlinear, _one_of(table, "fresnel", FRESNEL)
 
 
@@ -146,8 +146,8 @@ def _two_sided(table, others):
         name = reference.take("id")
         reference.take("type")
         reference.finish()
-        if name not in others:
-            raise TracerError(f"{place}: no material {name!r} in this scene; there are {listed(others)}")
+        if not isinstance(name, str) or name not in others:
+            raise TracerError(f"{place}: no material {shown(name)} in this scene; there are {listed(others)}")
         description = others[name]
     if isinstance(description, dict) and description.get("type") == "twosided":
         raise TracerError(f"{place}.type: 'twosided' inside twosided is not supported")
@@ -197,7 +197,7 @@ def _factors(table):
     )
 
 
-def _column(table, word, default, most=np.inf):
+def _column(table, word, default, most=LARGEST):
     return colour(table.take(word, default), f"{table.place}.{word}", most)[:, None]
 
 
@@ -205,7 +205,7 @@ def _one_of(table, word, known, default="exact"):
     value = table.take(word, default)
     if not isinstance(value, str) or value not in known:
         raise TracerError(
-            f"{table.place}.{word}: {value!r} is not known; {near(value, known)}known: {listed(known)}"
+            f"{table.place}.{word}: {shown(value)} is not known; {near(value, known)}known: {listed(known)}"
         )
     return value
 
@@ -219,7 +219,9 @@ def _index(table, word, default):
     value, place = table.take(word, default), f"{table.place}.{word}"
     if isinstance(value, str):
         if value not in INDICES:
-            raise TracerError(f"{place}: {value!r} is not known; give a number or one of {listed(INDICES)}")
+            raise TracerError(
+                f"{place}: {shown(value)} is not known; give a number or one of {listed(INDICES)}"
+            )
         return INDICES[value]
     if real(value, place) <= 0.0:
         raise TracerError(f"{place}: {value:g} is no index of refraction; it has to be above 0")

@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from tracer.scene_file.words import LARGEST, shown
 from tracer.settings import TracerError
+from tracer.shape.mesh import check
 
 
 def read(path, place, smooth):
@@ -11,19 +13,28 @@ def read(path, place, smooth):
     smooth: True for normals in any case (made from the faces where the file has none), False for none, None
     for those the file has. Raises TracerError naming the place.
     """
-    if not path.is_file():
+    try:
+        there = path.is_file()
+    except OSError as error:  # a name that no file can have
+        raise TracerError(f"{place}: {shown(str(path))}: {error.strerror or error}") from None
+    if not there:
         raise TracerError(f"{place}: there is no file {path}")
     try:
-        vertices, faces, normals = _read(path)
+        with np.errstate(invalid="ignore"):  # what is no number is found below
+            vertices, faces, normals = _read(path)
     except Exception as error:  # trimesh raises whatever its parsers do
         raise TracerError(
             f"{place}: {path} cannot be read as a mesh: {type(error).__name__}: {error}"
         ) from None
     if vertices.ndim != 2 or vertices.shape[1:] != (3,) or faces.ndim != 2 or faces.shape[1:] != (3,):
         raise TracerError(f"{place}: {path} holds no triangles")
+    check(f"{place}: {path}", vertices, faces)
+    far = np.abs(vertices).max()
+    if far > LARGEST:
+        raise TracerError(f"{place}: {path} reaches {far:g} from its origin; the limit is {LARGEST:g}")
     if smooth is False:
         return vertices, faces, None
-    return vertices, faces, _made(vertices, faces) if smooth and normals is None else normals
+    return vertices, faces, _made(vertices, faces) if smooth and normals is None else _unit(normals)
 
 
 def _read(path):
@@ -47,6 +58,16 @@ def _read(path):
     if any(n is None or np.shape(n) != np.shape(p["vertices"]) for n, p in zip(normals, parts, strict=True)):
         return vertices, faces, None
     return vertices, faces, np.concatenate([np.asarray(n, np.float64) for n in normals])
+
+
+def _unit(normals):
+    """Normals of length 1; 0 for those that are none. None for None."""
+    if normals is None:
+        return None
+    size = np.abs(normals).max(axis=1, keepdims=True)
+    good = (size > 0.0) & (size < np.inf)
+    scaled = np.where(good, normals, 0.0) / np.where(good, size, 1.0)
+    return scaled / np.where(good, np.linalg.norm(scaled, axis=1, keepdims=True), 1.0)
 
 
 def _made(vertices, faces):

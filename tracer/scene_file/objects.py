@@ -6,9 +6,10 @@ from tracer.camera import Camera
 from tracer.scene_file.emitters import EMITTERS
 from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.to_world import to_world
-from tracer.scene_file.words import Words, listed, near, real, triple
+from tracer.scene_file.words import Words, listed, near, real, shown, triple
 from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
+from tracer.shape.transform import check_invertible, determinant
 
 SHAPES = ("rectangle", "cube", "sphere", "obj", "ply", "stl", "gltf")
 SENSORS = ("perspective", "thinlens")
@@ -23,7 +24,7 @@ def kind_of(table, place):
             return family
     everything = (*SHAPES, *BSDFS, *EMITTERS, *SENSORS)
     hint = near(kind, everything)
-    raise TracerError(f"{place}.type: {kind!r} is not supported; {hint}known: {listed(everything)}")
+    raise TracerError(f"{place}.type: {shown(kind)} is not supported; {hint}known: {listed(everything)}")
 
 
 def shape(table, folder):
@@ -31,7 +32,7 @@ def shape(table, folder):
     kind, place = table.take("type"), table.place
     flip = table.take("flip_normals", False)
     if not isinstance(flip, bool):
-        raise TracerError(f"{place}.flip_normals: {flip!r} is neither true nor false")
+        raise TracerError(f"{place}.flip_normals: {shown(flip)} is neither true nor false")
     matrix = to_world(table.take("to_world", []), f"{place}.to_world")
     if kind == "rectangle":
         return Rectangle(place, matrix, flip)
@@ -59,16 +60,17 @@ def _mesh(table, matrix, flip, folder):
 
     filename = table.take("filename")
     if not isinstance(filename, str):
-        raise TracerError(f"{table.place}.filename: {filename!r} is not the name of a file")
+        raise TracerError(f"{table.place}.filename: {shown(filename)} is not the name of a file")
     flat = table.take("face_normals", None)
-    if flat not in (None, True, False):
-        raise TracerError(f"{table.place}.face_normals: {flat!r} is neither true nor false")
+    if not (flat is None or isinstance(flat, bool)):
+        raise TracerError(f"{table.place}.face_normals: {shown(flat)} is neither true nor false")
     smooth = None if flat is None else not flat
     vertices, faces, normals = read(folder / filename, f"{table.place}.filename", smooth)
-    turned = np.linalg.det(matrix[:3, :3]) < 0.0  # a reflection turns the winding round
+    turned = determinant(matrix[:3, :3]) < 0.0  # a reflection turns the winding round
     moved = vertices @ matrix[:3, :3].T + matrix[:3, 3]
     try:
         if normals is not None:
+            check_invertible(matrix, table.place)
             normals = normals @ np.linalg.inv(matrix[:3, :3])  # by the inverse transpose
         return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip, normals)
     except TracerError as error:
@@ -86,9 +88,9 @@ def sensor(description, place):
     table.finish()
     if not 0.0 < fov < 180.0:
         raise TracerError(f"{place}.fov: {fov:g} degrees is not between 0 and 180")
-    if axis not in ("x", "y", "smaller", "larger"):
-        raise TracerError(f"{place}.fov_axis: {axis!r} is not known; choose x, y, smaller or larger")
-    if np.linalg.det(matrix[:3, :3]) <= 0.0:
+    if not isinstance(axis, str) or axis not in ("x", "y", "smaller", "larger"):
+        raise TracerError(f"{place}.fov_axis: {shown(axis)} is not known; choose x, y, smaller or larger")
+    if determinant(matrix[:3, :3]) <= 0.0:
         raise TracerError(f"{place}.to_world: flattens or mirrors the view; use look_at")
     if axis == "y" or axis == ("smaller" if height < width else "larger"):
         half = np.tan(np.radians(0.5 * fov)) * width / height
@@ -114,5 +116,5 @@ def _film(description, place):
     table.finish()
     for word, value in zip(("width", "height"), size, strict=True):
         if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= 65535:
-            raise TracerError(f"{place}.{word}: {value!r} is not a whole number from 1 to 65535")
+            raise TracerError(f"{place}.{word}: {shown(value)} is not a whole number from 1 to 65535")
     return size

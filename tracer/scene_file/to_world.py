@@ -2,28 +2,34 @@
 
 import numpy as np
 
-from tracer.scene_file.words import Words, listed, real, triple
+from tracer.scene_file.words import LARGEST, Words, listed, real, triple
 from tracer.settings import TracerError
 
 
 def to_world(steps, place):
     """A 4x4 matrix, from itself or from a list of steps in the order in which they are applied."""
-    if np.shape(steps) == (4, 4):
+    if isinstance(steps, np.ndarray) or _is_list_of(steps, (list, tuple)):
         return _matrix(steps, place)
     if not isinstance(steps, (list, tuple)):
         steps = [steps]
     whole = np.eye(4)
     for k, step in enumerate(steps):
         whole = _transform_step(Words(step, f"{place}[{k}]")) @ whole
+        if not np.abs(whole).max() <= LARGEST:
+            raise TracerError(f"{place}[{k}]: takes something to more than {LARGEST:g} times its size")
     return whole
+
+
+def _is_list_of(value, kinds):
+    return isinstance(value, (list, tuple)) and len(value) > 0 and all(isinstance(v, kinds) for v in value)
 
 
 def _matrix(rows, place):
     try:
         matrix = np.array(rows, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TracerError(f"{place}: is not a 4 x 4 table of numbers") from None
-    if matrix.shape != (4, 4) or not np.isfinite(matrix).all() or (matrix[3] != [0, 0, 0, 1]).any():
+    if matrix.shape != (4, 4) or not (np.abs(matrix) <= LARGEST).all() or (matrix[3] != [0, 0, 0, 1]).any():
         raise TracerError(f"{place}: is not an affine 4 x 4 matrix of finite numbers with last row 0 0 0 1")
     return matrix
 
@@ -59,7 +65,7 @@ def _rotation(axis, degrees, place):
     x, y, z = axis / size
     quarter = degrees % 360.0 / 90.0
     if quarter.is_integer():
-        cos, sin = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter)]
+        cos, sin = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter) % 4]
     else:
         cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -1,10 +1,13 @@
 """Reading the tables of a scene word by word, with errors that name the place and what would do."""
 
+import sys
+
 import numpy as np
 
 from tracer.settings import TracerError
 
 MISSING = object()  # a word without a default
+LARGEST = 1e15  # of all numbers in a scene: products of several are then still numbers
 
 
 class SceneWarning(UserWarning):
@@ -29,7 +32,7 @@ class Words:
 
     def __init__(self, table, place):
         if not isinstance(table, dict):
-            raise TracerError(f"{place}: is {table!r}, but has to be a table with a type")
+            raise TracerError(f"{place}: is {shown(table)}, but has to be a table with a type")
         self.table, self.place, self._known = table, place, []
 
     def take(self, word, default=MISSING):
@@ -49,31 +52,39 @@ class Words:
                 raise TracerError(f"{self.place}.{word}: unknown word; {known}")
 
 
-def real(value, place, least=-np.inf, most=np.inf):
+def real(value, place, least=-LARGEST, most=LARGEST):
     """A finite number within limits."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TracerError(f"{place}: {value!r} is not a number")
-    if not np.isfinite(value):
-        raise TracerError(f"{place}: {value} is not a finite number")
+        raise TracerError(f"{place}: {shown(value)} is not a number")
+    if not -sys.float_info.max <= value <= sys.float_info.max:  # a whole number may be larger than any float
+        raise TracerError(f"{place}: {shown(value)} is not a finite number")
     if not least <= value <= most:
-        limits = f"at least {least:g}" if most == np.inf else f"from {least:g} to {most:g}"
-        raise TracerError(f"{place}: {value:g} is out of range; it has to be {limits}")
+        raise TracerError(f"{place}: {value:g} is out of range; it has to be from {least:g} to {most:g}")
     return float(value)
 
 
-def triple(value, place, least=-np.inf, most=np.inf):
+def shown(value):
+    """A value as an error message shows it: however it is nested, in part of a line."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of thousands of digits
+        text = "a huge number"
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+def triple(value, place, least=-LARGEST, most=LARGEST):
     """Three finite numbers within limits, (3,) float64."""
     if not isinstance(value, (list, tuple, np.ndarray)) or len(value) != 3:
-        raise TracerError(f"{place}: {value!r} is not a list of three numbers")
+        raise TracerError(f"{place}: {shown(value)} is not a list of three numbers")
     return np.array([real(v, f"{place}[{k}]", least, most) for k, v in enumerate(value)])
 
 
-def colour(value, place, most=np.inf):
+def colour(value, place, most=LARGEST):
     """A linear RGB colour from a number, three numbers, or {type = "rgb", value = ...}, (3,) float64."""
     if isinstance(value, dict):
         table = Words(value, place)
         if table.take("type") != "rgb":
-            raise TracerError(f"{place}.type: {value['type']!r} is not supported; known: rgb")
+            raise TracerError(f"{place}.type: {shown(value['type'])} is not supported; known: rgb")
         value = table.take("value")
         table.finish()
     if isinstance(value, (int, float)) and not isinstance(value, bool):

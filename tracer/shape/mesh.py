@@ -28,7 +28,7 @@ class Mesh:
     normals: np.ndarray | None = None
 
     def __post_init__(self):
-        _check(self.name, self.vertices, self.faces)
+        check(self.name, self.vertices, self.faces)
         doubled = np.linalg.norm(self._cross(), axis=1)
         object.__setattr__(self, "faces", self.faces[doubled > 0.0])
         if not len(self.faces):
@@ -101,7 +101,7 @@ class Mesh:
         return MeshKernel(self, first, dtype, corners)
 
 
-def _check(name, vertices, faces):
+def check(name, vertices, faces):
     """TracerError naming the first vertex or face that cannot be."""
     bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if bad.size:
@@ -110,11 +110,11 @@ def _check(name, vertices, faces):
         )
     if faces.size == 0:
         raise TracerError(f"{name}: the mesh has no triangles")
-    bad = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
+    wrong = (faces < 0) | (faces >= len(vertices))
+    bad = np.flatnonzero(wrong.any(axis=1))
     if bad.size:
-        raise TracerError(
-            f"{name}: face {bad[0]} names vertex {faces[bad[0]].max()}, but there are {len(vertices)}"
-        )
+        number = faces[bad[0]][wrong[bad[0]]][0]
+        raise TracerError(f"{name}: face {bad[0]} names vertex {number}, but there are {len(vertices)}")
 
 
 class MeshKernel:

@@ -27,5 +27,11 @@ def check_invertible(matrix, name):
         raise TracerError(f"{name}.to_world: holds a number that is not finite")
     linear_part = matrix[:3, :3]
     size = np.abs(linear_part).max()
-    if size == 0.0 or abs(np.linalg.det(linear_part / size)) < 1e-30:
+    if size == 0.0 or abs(determinant(linear_part / size)) < 1e-30:
         raise TracerError(f"{name}.to_world: flattens the shape (a scale of 0?) and cannot be inverted")
+
+
+def determinant(linear_part):
+    """Of the (3, 3) part of a transform; 0 where it underflows."""
+    with np.errstate(divide="ignore", under="ignore"):
+        return np.linalg.det(linear_part)
