@@ -15,11 +15,16 @@ Conventions, stated here and nowhere else:
   at the first hit.
 """
 
-from tracer.engine import inspect, render
-from tracer.film import fold
-from tracer.picture import read, write
-from tracer.scene_file import SceneWarning, built_in_scenes, export, load, load_dict
-from tracer.settings import Settings, TracerError
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tracer.engine import inspect, render
+    from tracer.film import fold
+    from tracer.picture import read, write
+    from tracer.scene_file import SceneWarning, export
+    from tracer.scene_file.load import built_in_scenes, load, load_dict
+    from tracer.settings import Settings, TracerError
 
 __all__ = [
     "SceneWarning",
@@ -35,3 +40,25 @@ __all__ = [
     "render",
     "write",
 ]
+
+# Where each public name lives. Its module is imported when the name is first used: who only wants a BSDF
+# does not wait for the engine.
+_HOME = {
+    "tracer.engine": ("inspect", "render"),
+    "tracer.film": ("fold",),
+    "tracer.picture": ("read", "write"),
+    "tracer.scene_file": ("SceneWarning", "built_in_scenes", "export", "load", "load_dict"),
+    "tracer.settings": ("Settings", "TracerError"),
+}
+
+
+def __getattr__(name):
+    for home, names in _HOME.items():
+        if name in names:
+            globals()[name] = value = getattr(import_module(home), name)
+            return value
+    raise AttributeError(f"module 'tracer' has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

@@ -10,7 +10,9 @@ from typing import Annotated
 from cyclopts import App, CycloptsError, Parameter
 
 import tracer
+from tracer.picture import check_path
 from tracer.settings import TracerError
+from viewer.bench_bsdf import bench_bsdf
 from viewer.export import export
 from viewer.options import Json, PathOptions, Whole, settings_and_steps, two_whole
 
@@ -59,7 +61,7 @@ def render(
     settings, steps = settings_and_steps(options)
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.png") if output is None else output
-    tracer.picture.check_path(path)
+    check_path(path)
     with _progress("rendering") as progress:
         picture = tracer.render(loaded, settings, progress, workers or os.cpu_count() or 1, steps)
     tracer.write(picture, path, scene=str(scene))
@@ -165,7 +167,7 @@ def diff(
     if not 0.0 < alpha < 1.0:
         raise TracerError(f"alpha: {alpha} is not between 0 and 1")
     if output is not None:
-        tracer.picture.check_path(output)
+        check_path(output)
     names = str(a), str(b)
     pictures = tracer.read(a), tracer.read(b)
     verdict = compare(*pictures, alpha, names)
@@ -211,6 +213,7 @@ def view(
 
 
 app.command(export)
+app.command(bench_bsdf, name="bsdf")
 
 
 @app.command

@@ -109,7 +109,7 @@ def telling_pixel(scene, settings, tries=9):
         (int((0.3 + 0.2 * (k % 3)) * settings.width), int((0.5 + 0.15 * (k // 3)) * settings.height))
         for k in range(tries)
     ]
-    return max(places, key=lambda place: _telling(tracer.inspect(scene, few, *place, steps=steps)))
+    return max(places, key=lambda xy: _telling(tracer.inspect(scene, few, xy[0], xy[1], steps=steps)))
 
 
 def _telling(record):

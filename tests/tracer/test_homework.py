@@ -28,7 +28,7 @@ REGIONS = [name for name in checks.HOMEWORK if name != "picture"]
 
 
 def as_in_the_homework(suite_seed, side, spp):
-    """The homework's direct light is a point uniform on the lamp's area, its samples go through the centres."""
+    """Its light samples are uniform on the lamp's area, its camera rays go through the pixels' centres."""
     return Settings(
         width=side,
         height=side,

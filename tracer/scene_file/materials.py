@@ -75,10 +75,11 @@ def _rough_conductor(table):
     metal, formula = _metal(table), _one_of(table, "fresnel", FRESNEL)
     if alphas is None:
         return Conductor(*metal, formula)
-    return RoughConductor(*alphas, *metal, distribution, formula)
+    alpha_u, alpha_v = alphas
+    return RoughConductor(alpha_u, alpha_v, *metal, distribution, formula)
 
 
-def _metal(table):
+def _metal(table) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """eta, k and specular_reflectance, (3, 1) each; a perfect mirror has k = inf."""
     material = table.take("material", None)
     factor = _column(table, "specular_reflectance", 1.0, 1.0)
@@ -109,7 +110,8 @@ def _rough_dielectric(table):
     eta, factors, formula = _eta(table, "bk7"), _factors(table), _one_of(table, "fresnel", FRESNEL)
     if alphas is None or eta[0] == 1.0:  # of equal indices every facet lets everything straight through
         return Dielectric(eta, *factors, formula)
-    return RoughDielectric(*alphas, eta, *factors, distribution, formula)
+    alpha_u, alpha_v = alphas
+    return RoughDielectric(alpha_u, alpha_v, eta, *factors, distribution, formula)
 
 
 def _plastic(table):
@@ -170,7 +172,6 @@ def _roughness(table, anisotropic=True):
             )
         words = ["alpha_u", "alpha_v"]
     alphas = [_alpha(table, word) for word in words]
-    table.take("alpha", None)
     if not any(alphas):
         return None, distribution
     if not all(alphas):
@@ -189,7 +190,7 @@ def _alpha(table, word):
     return alpha
 
 
-def _factors(table):
+def _factors(table) -> tuple[np.ndarray, np.ndarray]:
     """specular_reflectance and specular_transmittance, (3, 1) each."""
     return (
         _column(table, "specular_reflectance", 1.0, 1.0),
