@@ -101,7 +101,7 @@ def test_the_room_that_these_mistakes_spoil_is_good_itself():
     assert np.isfinite(tracer.render(scene, Settings(spp=2)).rgb).all()
 
 
-@pytest.mark.parametrize("name", ["cornell", "cornell_unit", "cornell_glass", "furnace"])
+@pytest.mark.parametrize("name", built_in_scenes())
 def test_every_scene_that_comes_along_can_be_read_and_shows_light(name):
     assert name in built_in_scenes()
     picture = tracer.render(tracer.load(name), Settings(width=16, height=16, spp=4))
