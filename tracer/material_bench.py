@@ -51,9 +51,14 @@ def sides(material):
     return (1,) if material.one_sided else (1, -1)
 
 
-def weights(material, wo, seed=0):
-    """(reflected, transmitted) energy of each sample, two (3, N), and the Sample itself."""
+def weights(material, wo, seed=0, even=False):
+    """(reflected, transmitted) energy of each sample, two (3, N), and the Sample itself.
+
+    even: the numbers that choose the lobe are spread evenly, for quieter means; not for tests of chance.
+    """
     u = np.random.default_rng(seed).random((3, wo.shape[1]))
+    if even:
+        u[0] = (np.arange(wo.shape[1]) + u[0]) / wo.shape[1]
     sample = material.sample(wo, u)
     cos = np.where(sample.delta, 1.0, np.abs(sample.wi[2]))
     weight = sample.f * (cos / np.where(sample.pdf > 0.0, sample.pdf, np.inf))
@@ -67,7 +72,7 @@ def albedo(material, degrees, n=20_000, seed=0):
     (3, K), for directions wo so many degrees from the normal."""
     reflected, transmitted, error = (np.empty((3, len(degrees))) for _ in range(3))
     for k, angle in enumerate(degrees):
-        back, across, _ = weights(material, towards(angle, n), seed + k)
+        back, across, _ = weights(material, towards(angle, n), seed + k, even=True)
         reflected[:, k], transmitted[:, k] = back.mean(axis=1), across.mean(axis=1)
         error[:, k] = (back + across).std(axis=1) / np.sqrt(n)
     return reflected, transmitted, error
