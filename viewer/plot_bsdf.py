@@ -30,7 +30,8 @@ def figure(document, material):
     _albedo(page.add_subplot(2, 2, 2), material)
     curves = bench.fresnel_curves(material)
     if curves:
-        _fresnel(page.add_subplot(2, 2, 3), *curves, hasattr(getattr(material, "bsdf", material), "k"))
+        values, marks = curves
+        _fresnel(page.add_subplot(2, 2, 3), values, marks, hasattr(getattr(material, "bsdf", material), "k"))
     _samples(page.add_subplot(2, 2, 4 if curves else (3, 4)), material)
     return page
 

@@ -82,6 +82,24 @@ def test_polarised_light_gets_through_a_pane_otherwise(key):
     assert close(0.5 * sum((1 - r) / (1 + r) for r in (rs, rp))[0], value)
 
 
+@pytest.mark.parametrize("key", keys("mirror.conductor."))
+def test_bounces_between_two_metal_mirrors(key):
+    p, value = entry(key)
+    R = Conductor(np.full((3, 1), p["eta"]), np.full((3, 1), p["k"]), ONES).reflectance_at(np.ones(1))
+    assert close(R[0, 0] ** p["bounces"], value)
+
+
+@pytest.mark.parametrize("key", keys("slab.stack."))
+def test_a_pile_of_panes(key):
+    """Each pane mirrors R' and lets T' through; adding panes one by one gives the pile's transmittance."""
+    p, value = entry(key)
+    R1 = ThinDielectric(np.array([p["n"]]), ONES, ONES).reflectance_at(np.ones(1))[0]
+    R, T = R1, 1 - R1
+    for _ in range(p["M"] - 1):
+        R, T = R + T * T * R1 / (1 - R * R1), T * (1 - R1) / (1 - R * R1)
+    assert close(T, value)
+
+
 @BOTH
 def test_s28_index_1_reflects_nothing_at_any_angle(dtype):
     cos = np.array([1, 0.5, 1e-3, 1e-8, 0], dtype)
