@@ -19,6 +19,7 @@ FLOORS = {
     "tracer.frame": 0,
     "tracer.warp": 0,
     "tracer.sampler": 0,
+    "tracer.derived": 0,
     "tracer.events": 0,
     "tracer.settings": 0,
     "tracer.tails": 0,
@@ -44,7 +45,12 @@ FLOORS = {
 }
 
 # On the ground floor only vectors come before the rest.
-ORDERED = {("tracer.events", "tracer.frame"), ("tracer.warp", "tracer.frame")}
+ORDERED = {
+    ("tracer.derived", "tracer.frame"),
+    ("tracer.events", "tracer.derived"),
+    ("tracer.events", "tracer.frame"),
+    ("tracer.warp", "tracer.frame"),
+}
 
 HEAVY = (
     "pyvista",

@@ -10,9 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
-from tracer.frame import Frame, dot
+from tracer import derived
 
 END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
 TECHNIQUES = ("area", "solid_angle", "cone", "delta", "image")
@@ -80,66 +78,6 @@ class Kind:
         raise KeyError(f"{self.name} has no field {name}")
 
 
-def _shape(event, vertex, scene):
-    return scene.shape_of[event["primitive"]]
-
-
-def _bsdf(event, vertex, scene):
-    return scene.bsdf_of[event["primitive"]]
-
-
-def _uv(event, vertex, scene):
-    return scene.uv(event["p"], event["primitive"])
-
-
-def _cos_wo(event, vertex, scene):
-    return dot(event["n"], event["wo"])
-
-
-def _light_cos(event, vertex, scene):
-    return -dot(event["nq"], event["wi"])
-
-
-def _light_pdf_area(event, vertex, scene):
-    cos = np.maximum(_light_cos(event, vertex, scene), 0.0)
-    density = event["pdf"] / event["pick"] * cos / (event["distance"] * event["distance"])
-    return np.where(event["primitive"] >= 0, density, 0.0)
-
-
-def _blocker(event, vertex, scene):
-    return scene.blocker(vertex, event)[0]
-
-
-def _blocker_distance(event, vertex, scene):
-    return scene.blocker(vertex, event)[1]
-
-
-def _of_material(name, event, vertex, scene):
-    frame = Frame.around(vertex["n"])
-    wo, wi = frame.to_local(vertex["wo"]), frame.to_local(event["wi"])
-    return scene.bsdf.property(scene.bsdf_of[vertex["primitive"]], name, wo, wi)
-
-
-def _eta(event, vertex, scene):
-    return _of_material("eta", event, vertex, scene)[0]
-
-
-def _fresnel(event, vertex, scene):
-    return _of_material("F", event, vertex, scene)
-
-
-def _normals(event, vertex, scene):
-    return _of_material("D", event, vertex, scene)[0]
-
-
-def _seen(event, vertex, scene):
-    return _of_material("G1", event, vertex, scene)[0]
-
-
-def _seen_from_both(event, vertex, scene):
-    return _of_material("G2", event, vertex, scene)[0]
-
-
 def _microfacet():
     """What stands behind f at a boundary with Fresnel's reflectance; NaN where it does not apply."""
     return (
@@ -148,18 +86,24 @@ def _microfacet():
             "Fresnel reflectance, at a rough boundary that of the facet",
             (3,),
             "probability",
-            derive=_fresnel,
+            derive=derived.F,
         ),
         Field(
-            "D", "density of the facets' normals that send wi to wo", (), "density", "1/sr", derive=_normals
+            "D", "density of the facets' normals that send wi to wo", (), "density", "1/sr", derive=derived.D
         ),
-        Field("G1", "share of the facets facing wo that is seen from there", (), "probability", derive=_seen),
+        Field(
+            "G1",
+            "share of the facets facing wo that is seen from there",
+            (),
+            "probability",
+            derive=derived.G1,
+        ),
         Field(
             "G2",
             "share of the facets that is seen from both wo and wi",
             (),
             "probability",
-            derive=_seen_from_both,
+            derive=derived.G2,
         ),
     )
 
@@ -181,13 +125,13 @@ HIT = Kind(
         Field("p", "point on the surface", (3,), "point", "m"),
         Field("t", "distance from the start of the ray", (), "positive", "m"),
         Field("primitive", "number of the flat face or sphere in the scene", (), "index"),
-        Field("shape", "which shape", (), "shape", derive=_shape),
-        Field("bsdf", "which material", (), "bsdf", derive=_bsdf),
-        Field("uv", "coordinates on the primitive", (2,), "real", derive=_uv),
+        Field("shape", "which shape", (), "shape", derive=derived.shape),
+        Field("bsdf", "which material", (), "bsdf", derive=derived.bsdf),
+        Field("uv", "coordinates on the primitive", (2,), "real", derive=derived.uv),
         Field("ng", "geometric normal", (3,), "unit vector"),
         Field("n", "shading normal", (3,), "unit vector"),
         Field("wo", "direction back along the path", (3,), "unit vector"),
-        Field("cos_wo", "cosine between n and wo", (), "cosine", derive=_cos_wo),
+        Field("cos_wo", "cosine between n and wo", (), "cosine", derive=derived.cos_wo),
         Field("front", "whether the ray came from the side of ng", (), "flag"),
         Field("beta", "throughput on arrival", (3,), "non-negative"),
         Field("Le", "radiance the surface itself sends along wo", (3,), "non-negative", "W/m²/sr"),
@@ -234,25 +178,25 @@ LIGHT = Kind(
             "W/m²/sr",
         ),
         Field("visible", "whether q is seen (not asked where nothing could arrive)", (), "flag"),
-        Field("blocker", "first shape in the way, -1 if none", (), "shape", derive=_blocker),
+        Field("blocker", "first shape in the way, -1 if none", (), "shape", derive=derived.blocker),
         Field(
             "blocker_distance",
             "distance to what is in the way",
             (),
             "distance",
             "m",
-            derive=_blocker_distance,
+            derive=derived.blocker_distance,
         ),
         Field("f", "BSDF from wi to wo, without the cosine", (3,), "non-negative", "1/sr"),
         Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
-        Field("cos_light", "cosine at the light, negative behind it", (), "cosine", derive=_light_cos),
+        Field("cos_light", "cosine at the light, negative behind it", (), "cosine", derive=derived.cos_light),
         Field(
             "pdf_area",
             "density of q on its light's area, 0 if it is no shape",
             (),
             "density",
             "1/m²",
-            derive=_light_pdf_area,
+            derive=derived.pdf_area,
         ),
         Field(
             "pdf",
@@ -291,7 +235,13 @@ BOUNCE = Kind(
         Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
         Field("pdf", "density of wi; at a Dirac lobe a probability", (), "density", "1/sr"),
         Field("delta", "whether the lobe is a Dirac one (its cosine cancels)", (), "flag"),
-        Field("eta", "index of refraction across the surface, as seen from wo", (), "positive", derive=_eta),
+        Field(
+            "eta",
+            "index of refraction across the surface, as seen from wo",
+            (),
+            "positive",
+            derive=derived.eta,
+        ),
         *_microfacet(),
         Field("u", "the random numbers: choice of the lobe, and of the direction", (3,), "probability"),
         Field("beta_before", "throughput before the bounce", (3,), "non-negative"),

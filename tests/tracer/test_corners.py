@@ -76,6 +76,27 @@ def test_without_knowing_where_a_ray_starts_it_would_leave(kind, tmp_path):
     assert ends(scene, SETTINGS) != {"max_depth": 64 * 64 * 4}
 
 
+def test_a_room_that_shines_inwards_is_dark_from_outside():
+    """A light sample on the inner side of its far wall is hidden by the near one."""
+    view = {"origin": [0, 3, 6], "target": [0, 0, 0], "up": [0, 1, 0]}
+    scene = {
+        "camera": {"type": "perspective", "fov": 60, "to_world": [{"look_at": view}]},
+        "floor": {
+            "type": "rectangle",
+            "to_world": [{"scale": 9.0}, {"rotate": [1, 0, 0], "angle": -90}, {"translate": [0, -2, 0]}],
+            "bsdf": WHITE,
+        },
+        "room": {
+            "type": "cube",
+            "flip_normals": True,
+            "bsdf": WHITE,
+            "emitter": {"type": "area", "radiance": 1.0},
+        },
+    }
+    picture = tracer.render(tracer.load_dict(scene), tracer.Settings(width=48, height=48, spp=16))
+    assert (picture.rgb == 0.0).all()
+
+
 def box_on_the_floor():
     """A white cube and a mirror cube that stand on a lit floor, seen from above."""
     view = {"origin": [0, 2, 3], "target": [0, 0.2, 0], "up": [0, 1, 0]}

@@ -70,8 +70,8 @@ def inverse(d):
 
 
 def meets(node, o, inverse, within):
-    """Whether rays o + t d, with inverse = 1/d, pass a node's box, or miss it by less than rounding, before
-    `within`: (N,)."""
+    """Whether rays o + t d, with inverse = 1/d, pass a node's box before `within`, or miss it by less than
+    rounding (Ize 2013), (N,)."""
     slack = 8.0 * np.finfo(o.dtype).eps
     near, far = None, within
     for k in range(3):

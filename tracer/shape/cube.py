@@ -118,9 +118,10 @@ class CubeKernel:
             if within.size:
                 self._from_another(t, entering, rays, within)
         if rays.target is not None:
-            aimed = (rays.target >= self.first) & (rays.target <= self.last)
-            if aimed.any():
-                t[aimed] = np.inf
+            aimed = np.flatnonzero((rays.target >= self.first) & (rays.target <= self.last))
+            if aimed.size:  # a face does not hide the point on it that a ray is aimed at
+                same = self.face((o, d, entering), rays, t, aimed) == rays.target[aimed] - self.first
+                t[aimed[same]] = np.inf
         return t, (o, d, entering)
 
     def _from_own_face(self, t, o, d, rays, lanes):
