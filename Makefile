@@ -1,5 +1,6 @@
 # make run: the viewer on a Cornell box.  make test: every test.  make quick: those under a minute.
-# make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.  make clean.
+# make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.
+# make accuracy: measures and writes ACCURACY.md.  make clean.
 
 PYTHON ?= python3
 RUN := .venv/bin/python -m
@@ -10,7 +11,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds clean system
+.PHONY: run test quick check format seeds accuracy clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -34,6 +35,10 @@ format: .venv/.dev
 
 seeds: .venv/.dev
 	.venv/bin/python tests/seeds.py
+
+# Hours; may be stopped and goes on where it was. `make test` does one percent of it.
+accuracy: .venv/.dev
+	.venv/bin/python tests/accuracy.py
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
