@@ -87,6 +87,8 @@ def _print_samples(record, chosen, console):
         radiance = (str(v) for v in path.radiance)
         table.add_row(f"{mark}{path.sample}", str(vertices), path.end, *radiance)
     table.add_row("mean", "", "", *(str(v) for v in record.value), style="bold")
+    if len(record.paths) > 1:
+        table.add_row("its error", "", "", *(f"{v:.2g}" for v in np.sqrt(record.variance)))
     console.print()
     console.print(table)
     console.print("* shown above; --sample K shows another" if len(record.paths) > 1 else "")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from cases import loaded
+from suite import castray
 
 import tracer
 from tracer import Settings, film
@@ -99,3 +100,14 @@ def test_the_picture_has_the_variance_that_inspect_finds(suite_seed):
         assert record.as_dict(loaded("cornell_unit").at(settings))["variance"] == pytest.approx(
             record.variance.tolist()
         )
+
+
+def test_inspect_prints_the_error_of_the_pixel(suite_seed):
+    """Standard error, from the samples that stand above it."""
+    words = ("--size", "8", "6", "--pixel", "3", "4", "--seed", suite_seed)
+    out = castray("inspect", "cornell_unit", *words, "--spp", "5").stdout
+    settings = Settings(width=8, height=6, spp=5, seed=suite_seed)
+    error = np.sqrt(tracer.inspect(loaded("cornell_unit"), settings, 3, 4).variance)
+    (line,) = (line for line in out.splitlines() if "its error" in line)
+    assert [float(word) for word in line.split()[2:]] == pytest.approx(error.tolist(), rel=0.05)
+    assert "its error" not in castray("inspect", "cornell_unit", *words, "--spp", "1").stdout
