@@ -56,11 +56,11 @@ def test_s42_reflected_and_transmitted_energy(suite_seed, key, dtype):
 
 
 @pytest.mark.statistical
-def test_s42_an_index_a_hundredth_off_is_caught(suite_seed):
+def test_s42_an_index_three_hundredths_off_is_caught(suite_seed):
     """The broken twin."""
     p, value = entry("roughdiel.T.out.alpha=0.1.mu=0.2")
     wo = direction(p["mu"], 4 * N)
-    _, passed = parts(glass(p["alpha"], 1.01 * p["n"]), wo, uniform(suite_seed, 4 * N))
+    _, passed = parts(glass(p["alpha"], 1.03 * p["n"]), wo, uniform(suite_seed, 4 * N))
     assert abs(passed.mean() - value) > z_limit(2 * len(TABLE)) * passed.std() / np.sqrt(4 * N)
 
 
