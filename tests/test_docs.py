@@ -36,7 +36,14 @@ def examples():
     return [line for line in lines if line.startswith("castray ") and " view " not in line]
 
 
-@pytest.mark.parametrize("line", examples())
+def dear(line):
+    """Whether an example takes more than a few seconds."""
+    return line.startswith("castray bsdf")
+
+
+@pytest.mark.parametrize(
+    "line", [pytest.param(line, marks=pytest.mark.slow if dear(line) else ()) for line in examples()]
+)
 def test_an_example_runs_as_it_is_printed(line, tmp_path):
     words = shlex.split(line, comments=True)[1:]
     done = castray(*words, cwd=tmp_path)

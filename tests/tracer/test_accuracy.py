@@ -7,7 +7,7 @@ from figures import figures
 ALL = {figure.key: figure for figure in figures()}
 QUICK = ("escapes-edges-far-32", "furnace-exact-64", "waves")
 
-pytestmark = pytest.mark.statistical
+pytestmark = [pytest.mark.statistical, pytest.mark.slow]
 
 
 @pytest.mark.parametrize(

@@ -59,6 +59,7 @@ def ends(scene, settings):
     return counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["rectangles", "cube", "mesh"])
 @pytest.mark.parametrize("place", [NEAR, FAR], ids=["near", "far"])
 @pytest.mark.parametrize("precision", [32, 64])

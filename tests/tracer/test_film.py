@@ -102,6 +102,7 @@ def test_the_picture_has_the_variance_that_inspect_finds(suite_seed):
         )
 
 
+@pytest.mark.slow
 def test_inspect_prints_the_error_of_the_pixel(suite_seed):
     """Standard error, from the samples that stand above it."""
     words = ("--size", "8", "6", "--pixel", "3", "4", "--seed", suite_seed)

@@ -16,6 +16,7 @@ def mean(cos, eta, formula="exact", dtype=np.float64):
     return fresnel.dielectric_mean(np.array([cos], dtype), np.array([eta], dtype), formula)[0][0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", keys("fresnel.diffuse_avg."))
 def test_diffuse_light_on_a_dielectric(key):
     n = np.array([entry(key)[0]["n"]])
@@ -155,6 +156,7 @@ def test_s33_brewster(n):
     assert rp[0] < 1e-30 and close(rs[0], ((n * n - 1) / (n * n + 1)) ** 2)
 
 
+@pytest.mark.slow
 def test_s34_a_light_pipe_neither_loses_nor_gains():
     """10 000 total reflections inside glass: the throughput stays exactly 1, directions stay unit."""
     glass = Dielectric(np.array([1.5]), ONES, ONES)

@@ -19,6 +19,8 @@ from hypothesis import strategies as st
 import tracer
 from tracer import SceneWarning, Settings, TracerError
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = int(os.environ.get("CASTRAY_FUZZ", "150"))
 FUZZ = settings(
     max_examples=EXAMPLES,

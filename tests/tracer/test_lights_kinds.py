@@ -165,6 +165,7 @@ def ready_sky(precision, turn=None):
     return Envmap("sky", sky(), turn).ready({32: np.float32, 64: np.float64}[precision], BALL)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 def test_directions_of_a_sky_are_spread_as_its_density_says(suite_seed, precision):
@@ -193,6 +194,7 @@ def cells(d):
     return row * 32 + np.minimum((np.arctan2(d[0], d[2]) / (2 * np.pi) % 1.0) * 32, 31).astype(int)
 
 
+@pytest.mark.slow
 @both
 def test_the_density_of_a_sky_integrates_to_one(suite_seed, precision):
     d = directions(suite_seed, 2_000_000).astype({32: np.float32, 64: np.float64}[precision])

@@ -78,6 +78,7 @@ def test_s19_a_lamp_edge_on_sends_nothing(suite_seed, precision):
         assert not np.isnan(light.pdf).any()
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("by", ["area", "solid_angle"])
@@ -160,6 +161,7 @@ def test_the_densities_of_a_lamp_integrate_to_one(suite_seed, precision):
         assert abs(0.97 * whole.mean() - 1) > 4 * error  # the broken twin: a density 3 % too small
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_many_lamps_light_a_room_whichever_way_they_are_found(suite_seed):
     scene = tracer.load("many_lights")

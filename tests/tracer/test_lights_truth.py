@@ -36,6 +36,7 @@ def rectangle_case(key):
     return lamp, given["point"], given.get("normal", lamps.UP), value
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("key", RECTANGLES)
@@ -49,6 +50,7 @@ def test_a_rectangle_sends_what_lambert_says(suite_seed, key, precision):
     assert lamps.close(lamps.irradiance(light, normal), value, slack=SLACK[precision])
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("key", [k for k in RECTANGLES if "touching" not in k])
@@ -59,6 +61,7 @@ def test_a_rectangle_sampled_by_area_sends_the_same(suite_seed, key, precision):
     assert lamps.close(lamps.irradiance(light, normal), value, slack=SLACK[precision])
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("key", SPHERES)

@@ -12,6 +12,8 @@ from tracer.bsdf.sample import Sample
 from tracer.material_bench import TILTS, albedo, dirac_lobes, fresnel_curves, histogram, lobes, properties
 from tracer.scene_file.materials import BSDFS, bsdf
 
+pytestmark = pytest.mark.slow
+
 RHO = np.array([[0.8], [0.5], [0.2]])
 
 

@@ -324,6 +324,7 @@ def test_a_disk_that_fills_up_leaves_the_old_scene_whole(tmp_path, monkeypatch):
     assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"the scene of yesterday"]
 
 
+@pytest.mark.slow
 def test_the_command_writes_what_the_command_reads(tmp_path):
     done = castray("export", "cornell", "-o", "box.xml", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")

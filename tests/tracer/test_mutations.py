@@ -22,6 +22,7 @@ def test_the_right_tracer_passes(suite_seed, check):
     assert check(suite_seed) <= 1.0
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @every_bug
 def test_a_planted_bug_is_caught(suite_seed, bug):

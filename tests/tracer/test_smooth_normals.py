@@ -117,6 +117,7 @@ def brighter(*arguments):
     return 1.15 * light_term(*arguments)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_the_loops_agree_under_smooth_normals(tmp_path):
     """Means within 4 joint standard errors, which are 2 % or better (two-sided 6e-5, one test)."""

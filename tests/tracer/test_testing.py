@@ -46,6 +46,7 @@ def rendered(seed, spp=16, side=24, **options):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("n", "m", "skew"), [(16, 16, 0.5), (16, 16, 3.0), (2, 3, 1.0), (8, 128, 2.0), (64, 16, 4.0)]
 )
