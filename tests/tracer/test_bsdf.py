@@ -180,6 +180,7 @@ def test_every_bsdf_has_an_example_here():
     assert set(EXAMPLES) == set(ALL)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("tilt", TILTS)

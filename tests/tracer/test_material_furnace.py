@@ -82,6 +82,7 @@ def test_s54_what_loses_nothing_cannot_be_seen(name, precision):
     assert (np.abs(mean - 1) < z_limit(12) * error + (2e-5 if precision == 32 else 1e-9)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @every
 def test_s54_no_material_makes_light(name):
@@ -92,6 +93,7 @@ def test_s54_no_material_makes_light(name):
     assert np.isfinite(radiance).all() and (radiance >= 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @every
 def test_s56_the_strategies_agree(name):

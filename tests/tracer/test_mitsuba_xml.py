@@ -335,6 +335,7 @@ def test_the_command_writes_what_the_command_reads(tmp_path):
     assert np.array_equal(np.load(tmp_path / "box.xml.npy"), np.load(tmp_path / "cornell.npy"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "said"), [(("-o", "out.obj"), ".xml"), (("-o", "no/out.xml"), "no folder"), ((), "nowhere")]
 )

@@ -3,6 +3,7 @@
 import asyncio
 import http.client
 import socket
+from concurrent.futures import ThreadPoolExecutor
 
 import aiohttp
 import msgpack
@@ -56,7 +57,9 @@ def talk(server, cookie, *messages, raw=None):
                 await ws.send_bytes(raw)
             return answers[1:]
 
-    return asyncio.run(conversation())
+    # In a thread of its own: the browser of other tests may have left its loop running in this one.
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, conversation()).result()
 
 
 def chunk(message):

@@ -14,6 +14,7 @@ def test_it_prints_its_address_alone_on_one_line(serve):
     assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?key=[\w-]{20,}", server.address)
 
 
+@pytest.mark.slow
 def test_every_start_has_a_key_of_its_own(serve):
     assert serve("furnace", *SMALL).key != serve("furnace", *SMALL).key
 
@@ -25,6 +26,7 @@ def test_it_listens_where_it_is_told(serve):
     assert serve("furnace", *SMALL, "--port", str(port)).port == port
 
 
+@pytest.mark.slow
 def test_a_port_that_is_taken_is_one_clear_line(serve):
     port = serve("furnace", *SMALL).port
     ran = castray("view", "furnace", "--no-browser", "--port", port, timeout=60)
@@ -33,6 +35,7 @@ def test_a_port_that_is_taken_is_one_clear_line(serve):
     assert len(ran.stderr.splitlines()) == 1 and str(port) in ran.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C cannot be sent to another process alone")
 def test_ctrl_c_ends_it_without_a_traceback(serve):
     server = serve("cornell_unit", "--spp", "4096")
@@ -42,6 +45,7 @@ def test_ctrl_c_ends_it_without_a_traceback(serve):
     assert "Traceback" not in said and out == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "link",
     [
