@@ -21,7 +21,7 @@ SIDE = 32
 LAMP_ROWS = {"cornell": 8, "cornell_unit": 7, "cornell_glass": 7, "furnace": 0}  # of 32 that show the lamp
 SPP = {"walk": 2048, "direct": 320, "path": 320}  # walk needs most: it meets the small lamp by chance
 
-pytestmark = pytest.mark.statistical
+pytestmark = [pytest.mark.statistical, pytest.mark.slow]
 
 
 def below_lamp(scene, settings, steps=zoo.RIGHT):

@@ -10,6 +10,8 @@ from tracer.bsdf import Conductor, Dielectric, RoughConductor, RoughDielectric
 from tracer.bsdf.microfacet import DISTRIBUTIONS
 from tracer.events import LOBES
 
+pytestmark = pytest.mark.slow
+
 ONES = np.ones((3, 1))
 N = 100_000
 kinds = pytest.mark.parametrize("kind", DISTRIBUTIONS)

@@ -9,6 +9,8 @@ import aiohttp
 import msgpack
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def cookie(small):

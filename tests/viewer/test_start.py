@@ -8,6 +8,8 @@ import pytest
 from suite import castray
 from viewers import SMALL
 
+pytestmark = pytest.mark.slow
+
 
 def test_it_prints_its_address_alone_on_one_line(serve):
     server = serve("cornell_unit", *SMALL)
