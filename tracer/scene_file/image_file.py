@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tracer.picture import from_srgb
 from tracer.settings import TracerError
 
 
@@ -45,9 +46,7 @@ def _srgb(path):
     from PIL import Image
 
     with Image.open(path) as image:
-        encoded = np.asarray(image.convert("RGB"), np.float64) / 255.0
-    # The curve of IEC 61966-2-1.
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+        return from_srgb(np.asarray(image.convert("RGB"), np.float64) / 255.0)
 
 
 def _radiance(path):
