@@ -1,81 +1,19 @@
-"""The figures of ACCURACY.md: each is many independent chunks, and what they add up to."""
-
-from collections.abc import Callable
-from dataclasses import dataclass
+"""Whole pictures: rooms whose radiance is known, two loops against one another, error bars, the same bits."""
 
 import numpy as np
 from cases import loaded
-from escapes import AIMS, PLACES, escapes
 
 import tracer
+from figures.figure import Figure
 from tracer import Settings, tails
 from tracer.engine import waves
 from tracer.testing import calibration, z_test
 
+TITLE = "Pictures"
 SIDE = 32  # pixels of the pictures here
 FULL_DEPTH = 8
-FINE = 5  # subdivisions of the mesh: 20480 triangles
-BARS = "share of 95 % error bars that hold the truth, furnace with roulette"
-PATHS = "bias Z of path against walk, cornell_unit"
-WAVES = "pixels that change with the size of waves"
 TRUTH = 2.0 * (1.0 - 0.5**FULL_DEPTH)  # of the furnace, see test_furnace
-
-
-@dataclass(frozen=True)
-class Figure:
-    """One line of ACCURACY.md.
-
-    measure(chunk's seed) gives a dict of numbers; those of all chunks are added up, or the largest taken if
-    the name starts with "most". judge(sums, chunks) gives (what is printed, whether it is good enough).
-    """
-
-    key: str
-    what: str
-    bar: str  # what castray asks of itself
-    anchors: str  # what trusted renderers ask of themselves
-    precision: str
-    chunks: int
-    n: int  # rays, paths or intervals in a chunk
-    measure: Callable
-    judge: Callable
-
-
-def _escapes(aim, place, dtype, n):
-    return lambda seed: {"escaped": escapes(place, aim, dtype, n, seed, fine=FINE)}
-
-
-def _none_escaped(n):
-    def judge(sums, chunks):
-        bound = 3.0e8 / (n * chunks)  # 95 % confidence where none was seen
-        seen = sums["escaped"] / (n * chunks) * 1e8
-        return (f"{seen:.3g}" if seen else f"0 (< {bound:.3g})") + " per 1e8", sums["escaped"] == 0
-
-    return judge
-
-
-def escape_figures():
-    """Rays aimed at random, at edges and at vertices of a closed mesh, at the origin and far from it."""
-    n = 50_000
-    bars = {
-        "anywhere": "Embree allows 2000 per 1e8; Vulkan 0",
-        "edges": "Vulkan 0; Embree never aims there",
-        "corners": "Vulkan 0; Embree never aims there",
-    }
-    for place, where in zip(PLACES, ("origin", "far"), strict=True):
-        for aim in AIMS:
-            for dtype in (np.float32, np.float64):
-                bits = np.dtype(dtype).itemsize * 8
-                yield Figure(
-                    f"escapes-{aim}-{where}-{bits}",
-                    f"escapes of rays aimed at {aim}, {where}, 20480 triangles",
-                    "0",
-                    bars[aim],
-                    f"float{bits}",
-                    200,
-                    n,
-                    _escapes(aim, place, dtype, n),
-                    _none_escaped(n),
-                )
+NOISY = "pbrt: means within 2.5 %; we know of no global test"
 
 
 def _furnace(seed, precision=32, spp=64, **options):
@@ -144,8 +82,7 @@ def _judge_waves(sums, chunks):
 
 
 def figures():
-    """Every figure that is measured."""
-    yield from escape_figures()
+    """Furnaces without and with noise, calibration, the loops' agreement, and the same bits."""
     paths = SIDE * SIDE
     for precision, bar in ((32, 1e-5), (64, 1e-7)):  # pixels are rounded to float32 in both
         yield Figure(
@@ -159,19 +96,13 @@ def figures():
             _still_furnace(precision),
             lambda sums, chunks, bar=bar: (f"{sums['most_off']:.2g}", sums["most_off"] <= bar),
         )
-    noisy = "pbrt: means within 2.5 %; we know of no global test"
+    bars = "share of 95 % error bars that hold the truth, furnace with roulette"
+    size = "pixels that change with the size of waves"
+    between = "bias Z of path against walk, cornell_unit"
     for key, what, bar, anchors, n, measure, judge in (
-        ("furnace-bias", "bias Z of a furnace, roulette", "< 4", noisy, 64 * paths, _noisy_furnace, _judge_Z),
-        (
-            "calibration",
-            BARS,
-            "94.5 to 95.5 %",
-            "we know of none published",
-            paths,
-            _intervals,
-            _judge_intervals,
-        ),
-        ("path-walk", PATHS, "< 4", noisy, 160 * paths, _path_against_walk, _judge_Z),
-        ("waves", WAVES, "0", "Falcor: tolerance 0.0", paths, _reproduced, _judge_waves),
+        ("furnace-bias", "bias Z of a furnace, roulette", "< 4", NOISY, 64 * paths, _noisy_furnace, _judge_Z),
+        ("calibration", bars, "94.5 to 95.5 %", "we know of none", paths, _intervals, _judge_intervals),
+        ("path-walk", between, "< 4", NOISY, 160 * paths, _path_against_walk, _judge_Z),
+        ("waves", size, "0", "Falcor: tolerance 0.0", paths, _reproduced, _judge_waves),
     ):
         yield Figure(key, what, bar, anchors, "float32", 100, n, measure, judge)
