@@ -2,6 +2,7 @@
 
 import errno
 import os
+import re
 
 import numpy as np
 import pytest
@@ -81,7 +82,7 @@ BOX = '<shape type="cube"><transform name="to_world">{}</transform></shape></sce
             '<rotate y="1" angle="30"/><scale value="1 2 3"/>',
             [{"rotate": [0, 1, 0], "angle": 30}, {"scale": [1, 2, 3]}],
         ),
-        ('<rotate value="1,1,0" angle="30"/>', [{"rotate": [1, 1, 0], "angle": 30}]),
+        ('<rotate value="0.6,0.8,0" angle="30"/>', [{"rotate": [0.6, 0.8, 0], "angle": 30}]),
         (
             '<lookat origin="1 2 3" target="0 0 1" up="0 0 1"/>',
             [{"look_at": {"origin": [1, 2, 3], "target": [0, 0, 1], "up": [0, 0, 1]}}],
@@ -295,6 +296,27 @@ def test_every_spelling_of_a_dict_goes_out_and_comes_back_the_same(tmp_path):
     assert 'value="in/m.obj"' in (tmp_path / "every.xml").read_text(encoding="utf-8")
     for precision in (32, 64):
         assert same(scene, back, Settings(width=16, height=12, spp=4, precision=precision))
+
+
+def test_an_axis_that_is_not_of_length_1_shears_in_mitsuba_so_it_goes_out_as_a_matrix(tmp_path):
+    def steps(axis):
+        return {**DICT, "box": {"type": "cube", "to_world": [{"rotate": axis, "angle": 30}]}}
+
+    for axis, tag in (((0, 0, -1), "rotate"), ((1, 2, 3), "matrix"), ((0, 0, 2), "matrix")):
+        scene = tracer.load_dict(steps(axis))
+        tracer.export(scene, tmp_path / "turned.xml")
+        text = (tmp_path / "turned.xml").read_text(encoding="utf-8")
+        (box,) = re.findall(r'<shape type="cube".*?</shape>', text, re.DOTALL)
+        assert f"<{tag} " in box
+        assert np.array_equal(
+            tracer.load(tmp_path / "turned.xml").shapes[-1].to_world, scene.shapes[-1].to_world
+        )
+
+
+def test_a_rotation_that_mitsuba_would_take_for_a_shear_is_named(read):
+    turned = BOX.format('<rotate value="1,1,0" angle="30"/>')
+    with pytest.warns(SceneWarning, match=r"room.xml: line 16: rotate: .* length 1.41421"):
+        read(XML.replace("</scene>", turned))
 
 
 @pytest.mark.parametrize("name", ["a\x01b", "a$b", "a\ud800b"])

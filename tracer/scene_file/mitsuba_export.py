@@ -2,7 +2,8 @@
 
 Meshes stay where they are: a file in or below the folder of the XML is named from there, any other by its
 whole path. What Mitsuba would assume differently is said: the size of the film, its box filter, and whether
-a mesh is smooth.
+a mesh is smooth. A rotation about an axis that is not of length 1, which Mitsuba would take for a shear,
+goes out as its matrix.
 """
 
 import re
@@ -14,6 +15,7 @@ import numpy as np
 from tracer.picture import write_whole
 from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.objects import kind_of
+from tracer.scene_file.to_world import to_world
 from tracer.settings import TracerError
 
 _POINTS, _VECTORS = ("center", "position", "p0", "p1"), ("direction",)
@@ -133,6 +135,9 @@ def _transform(parent, value):
             ElementTree.SubElement(parent, "lookat", words)
         elif "matrix" in step:
             ElementTree.SubElement(parent, "matrix", value=_numbers(np.ravel(step["matrix"])))
+        elif "rotate" in step and np.linalg.norm(step["rotate"]) != 1.0:
+            matrix = to_world(step, "to_world")
+            ElementTree.SubElement(parent, "matrix", value=_numbers(np.ravel(matrix)))
         elif "rotate" in step:
             axis = dict(zip("xyz", map(_number, step["rotate"]), strict=True))
             ElementTree.SubElement(parent, "rotate", axis, angle=_number(step["angle"]))

@@ -5,6 +5,7 @@ without normals is shaded smoothly. Integrators, samplers and filters are a matt
 that could change the picture, a SceneWarning says so.
 """
 
+import math
 import re
 import warnings
 
@@ -151,13 +152,22 @@ class Translation:
             child.only("name")
             word = child.get("name")
             self._lines.update({f"{place}.{word}[{k}]": step.where for k, step in enumerate(child.children)})
-            return word, steps(child)
+            made = steps(child)
+            self._note_axes(child, made)
+            return word, made
         if tag == "ref":
             return self._reference(child, element, table, place, above)
         if tag in ("bsdf", "emitter", "film", "texture"):
             word = _word(child, element, table)
             return word, self._object(child, f"{place}.{word}", above)
         raise _unknown(child, (*VALUES, "transform", "ref", "bsdf", "emitter", "film", "texture"))
+
+    def _note_axes(self, transform, made):
+        for element, step in zip(transform.children, made, strict=True):
+            size = math.hypot(*step.get("rotate", (1.0,)))
+            if abs(size - 1.0) > 1e-6:
+                text = f"rotate: an axis of length {size:.6g} shears in Mitsuba; here it is a direction only"
+                self._settings.append((element.where, text))
 
     def _reference(self, child, element, table, place, above):
         """An object by its id: by name where load_dict knows the name, and as a copy elsewhere."""

@@ -72,6 +72,8 @@ def _mesh(table, matrix, flip, folder):
         if normals is not None:
             check_invertible(matrix, table.place)
             normals = normals @ np.linalg.inv(matrix[:3, :3])  # by the inverse transpose
+            size = np.linalg.norm(normals, axis=1, keepdims=True)
+            normals = normals / np.where(size > 0.0, size, 1.0)  # so that all weigh the same between them
         return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip, normals)
     except TracerError as error:
         raise TracerError(f"{error} ({folder / filename})") from None
