@@ -10,6 +10,7 @@ from tracer.frame import dot, length
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
+from tracer.shape.arrange import arrange
 from tracer.shape.rays import Rays, error_bound, leave
 from tracer.shape.sphere import Sphere
 
@@ -111,12 +112,17 @@ class Scene:
             np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
         )
         corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
-        # Lamps first: of surfaces at exactly the same distance the first is met, so that one in the plane of
-        # a wall is seen before it.
-        order = sorted(range(len(self.shapes)), key=lambda k: self.definition.surfaces[k].radiance is None)
-        self._kernels = [
-            self.shapes[k].kernel(int(self.first[k]), extent, self.dtype, corners) for k in order
-        ]
+        materials = [self.definition.bsdfs[surface.bsdf] for surface in self.definition.surfaces]
+        self._arrangement = arrange(
+            self.shapes,
+            self.first,
+            [material.one_sided and not material.see_through for material in materials],
+            [surface.radiance is not None for surface in self.definition.surfaces],
+            bool(self.definition.emitters),
+            extent,
+            corners,
+            self.dtype,
+        )
 
     def _prepare_lights(self):
         shining = [
@@ -151,14 +157,14 @@ class Scene:
     def _closest(self, rays):
         t = np.full(rays.source.shape, np.inf, self.dtype)
         primitive = np.full(rays.source.shape, -1, np.int32)
-        for kernel in self._kernels:
-            t_k, hint = kernel.closest(rays, t)
+        for kernel in self._arrangement.closest:
+            t_k, met = kernel.closest(rays, t)
             nearer = t_k < t
-            if kernel.faces == 1:
-                np.copyto(primitive, kernel.first, where=nearer)
-            else:
+            if callable(met):
                 lanes = np.flatnonzero(nearer)
-                primitive[lanes] = kernel.first + kernel.face(hint, rays, t_k, lanes)
+                primitive[lanes] = met(lanes)
+            else:
+                np.copyto(primitive, met, where=nearer)
             t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
         if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
             none = ~np.isfinite(rays.o + rays.d).all(axis=0)
@@ -238,8 +244,8 @@ class Scene:
             hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
         blocked = np.zeros(distance.shape, bool)
-        for kernel in self._kernels:
-            blocked |= kernel.closest(rays, distance)[0] < distance
+        for blocks in self._arrangement.blocking:
+            blocked |= blocks(rays, distance)
         return blocked
 
     def blocker(self, vertex, event):

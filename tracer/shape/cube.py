@@ -1,6 +1,7 @@
 """A box: the cube from -1 to 1, after its transform. A convex body, entered and left by slabs."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -76,8 +77,8 @@ class Cube:
 class CubeKernel:
     """Three slabs in the cube's own frame.
 
-    Each slab's near and far plane is told apart by the sign of the direction before anything is reduced,
-    and the reductions ignore NaN: a ray that lies in the plane of a face (0 times infinity) is not lost.
+    A ray along a slab is in it for ever or never: the products, 0 times infinity where it lies in the plane of
+    a face, do not tell, and it would be lost.
     """
 
     faces = 6
@@ -102,27 +103,36 @@ class CubeKernel:
         d = [linear(row, rays.d) for row in self.rows]
         near = far = None
         for o_k, d_k in zip(o, d, strict=True):
-            side = np.copysign(self.one, d_k)
-            enter, leave = (-side - o_k) / d_k, (side - o_k) / d_k
-            near = enter if near is None else np.fmax(near, enter)
-            far = leave if far is None else np.fmin(far, leave)
+            inverse = self.one / d_k
+            low, high = (-self.one - o_k) * inverse, (self.one - o_k) * inverse
+            enter, leave = np.minimum(low, high), np.maximum(low, high)
+            along = d_k == 0.0
+            if along.any():
+                along &= np.abs(o_k) <= self.one
+                np.copyto(enter, -np.inf, where=along)
+                np.copyto(leave, np.inf, where=along)
+            near = enter if near is None else np.maximum(near, enter)
+            far = leave if far is None else np.minimum(far, leave)
         hit = (near <= far) & (far > 0.0)
         entering = near > 0.0
-        t = hits_only(np.where(entering, near, far), hit)
+        t = hits_only(near, hit)
+        inside = hit & ~entering
+        if inside.any():
+            np.copyto(t, far, where=inside)
         own = (rays.source >= self.first) & (rays.source <= self.last)
         if own.any():
             self._from_own_face(t, o, d, rays, np.flatnonzero(own))
             entering &= ~own
         if self.corners is not None:
-            within = np.flatnonzero(hit & (near <= 0.0) & (rays.source >= 0) & ~own)
+            within = np.flatnonzero(inside & (rays.source >= 0) & ~own)
             if within.size:
                 self._from_another(t, entering, rays, within)
         if rays.target is not None:
             aimed = np.flatnonzero((rays.target >= self.first) & (rays.target <= self.last))
             if aimed.size:  # a face does not hide the point on it that a ray is aimed at
-                same = self.face((o, d, entering), rays, t, aimed) == rays.target[aimed] - self.first
+                same = self._face(o, d, entering, t, aimed) == rays.target[aimed]
                 t[aimed[same]] = np.inf
-        return t, (o, d, entering)
+        return t, partial(self._face, o, d, entering, t)
 
     def _from_own_face(self, t, o, d, rays, lanes):
         """Put right the distances of rays that start on this cube: none outwards, the far side inwards.
@@ -156,11 +166,10 @@ class CubeKernel:
                 t[lanes[at[outside]]] = np.where(into, 0.0, np.inf)[outside]
                 entering[lanes[at[outside]]] = True
 
-    def face(self, hint, rays, t, lanes):
+    def _face(self, o, d, entering, t, lanes):
         """The face whose plane the hit point is nearest to, of those the ray crosses in its direction."""
-        o, d, entering = hint
         o, d = (np.stack([v_k[lanes] for v_k in v]) for v in (o, d))
         p = o + t[lanes] * d
         crossed = (p * d > 0.0) != entering[lanes]
         axis = np.argmax(np.abs(p) * crossed, axis=0)
-        return (2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)
+        return (self.first + 2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)

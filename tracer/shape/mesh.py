@@ -128,7 +128,7 @@ class MeshKernel:
     """
 
     def __init__(self, mesh, first, dtype, corners):
-        self.first, self.faces, self.corners = first, mesh.primitives, corners
+        self.first, self.corners = first, corners
         self.vertices = mesh.vertices.astype(dtype)
         self.corner_of = mesh.faces
         n, c = mesh.planes()
@@ -149,7 +149,7 @@ class MeshKernel:
             lanes = near[major == axis]
             if lanes.size:
                 t[lanes], face[lanes] = self._along(axis, rays.take(lanes), t[lanes])
-        return np.where(face >= 0, t, np.inf), face
+        return np.where(face >= 0, t, np.inf), self.first + face
 
     def _along(self, axis, rays, t):
         """closest, for rays whose largest component is `axis`."""
@@ -170,10 +170,6 @@ class MeshKernel:
 
         bvh.walk(self.tree, rays.o, rays.d, t, visit)
         return t, face
-
-    def face(self, hint, rays, t, lanes):
-        """The triangle found with the distance."""
-        return hint[lanes]
 
     def _triangles(self, triangles, axes, sheared, rays, lanes):
         """Distances (T, N) of sheared rays to triangles; inf for a miss."""

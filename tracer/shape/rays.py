@@ -12,14 +12,14 @@ class Rays(NamedTuple):
 
     o: np.ndarray  # (3, N) origin
     d: np.ndarray  # (3, N) unit direction
-    inv_d: np.ndarray  # (3, N) 1/d, infinite where a component is zero
+    inv_d: np.ndarray  # (3, N) 1/d, +infinite where a component is zero
     source: np.ndarray  # (N,) number of the primitive the ray starts on, -1 for none
     target: np.ndarray | None = None  # (N,) number of the primitive it is aimed at
 
     @classmethod
     def towards(cls, o, d, source, target=None):
         """Rays from o along d."""
-        return cls(o, d, 1.0 / d, source, target)
+        return cls(o, d, 1.0 / (d + 0.0), source, target)  # -0 + 0 is +0
 
     def take(self, lanes):
         """The rays of some lanes."""

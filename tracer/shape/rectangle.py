@@ -102,7 +102,7 @@ class RectangleKernel:
         self.margin = start.margin(np.abs(self.plane[0]), self.plane[1], far)
 
     def closest(self, rays, within=np.inf):
-        """Distance along each ray, inf for a miss."""
+        """Distance along each ray, inf for a miss, and the primitive."""
         if self.axis is None:
             depth = self.c - linear(self.n, rays.o)
             t = depth / linear(self.n, rays.d)
@@ -121,7 +121,7 @@ class RectangleKernel:
         if lanes.size:
             o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
             t[lanes] = start.distance(o, d, *self.plane, rays.source[lanes], self.corners)
-        return t, None
+        return t, self.first
 
 
 def _clean(rows):

@@ -82,7 +82,7 @@ class SphereKernel:
         self.radius = dtype(sphere.radius)
 
     def closest(self, rays, within=np.inf):
-        """Distance to the first root ahead, inf for a miss."""
+        """Distance to the first root ahead, inf for a miss, and the primitive."""
         oc = rays.o - self.center
         b = dot(oc, rays.d)
         foot = oc - b * rays.d
@@ -99,4 +99,4 @@ class SphereKernel:
         t[own] = np.where(b < 0.0, -2.0 * b, np.inf)[own]
         if rays.target is not None:
             t[rays.target == self.first] = np.inf
-        return t, None
+        return t, self.first

@@ -1,0 +1,82 @@
+"""Which routine answers for which shapes, decided once per scene: what cannot matter is not asked.
+
+For the nearest hit, walls of one box are asked together (see room). For shadows three sorts of shape are not
+asked at all: walls, where the box holds receiver and lamp; a rectangle with everything in front of it, which
+no segment between two surfaces crosses; and the only face that shines, which every shadow ray ends on.
+"""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.shape import room
+from tracer.shape.rectangle import Rectangle
+from tracer.shape.sphere import Sphere
+
+_SLACK = 1e-9  # relative: what lies behind a plane by less lies in it
+
+
+class Arrangement(NamedTuple):
+    """The routines of a scene, in the order in which they are asked."""
+
+    closest: list  # for the nearest hit
+    blocking: list  # for shadows: blocks(rays, distance) -> (N,) bool
+    walls: tuple  # numbers of the shapes that are walls of one box
+    harmless: tuple  # numbers of the other shapes that never block
+
+
+def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
+    """The Arrangement of a scene.
+
+    first: number of each shape's first primitive; sealed: (S,) whether nothing goes on behind its front;
+    shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; corners: (3, 4, P)
+    of all primitives.
+    """
+    kernels = [shape.kernel(int(k), extent, dtype, corners) for shape, k in zip(shapes, first, strict=True)]
+    # Lamps first: of surfaces at exactly the same distance the first is met, so that one in the plane of a
+    # wall is seen before it.
+    order = sorted(range(len(shapes)), key=lambda k: not shining[k])
+    sides = room.find(shapes, sealed)
+    walls = () if sides is None else tuple(k for k in sides if k >= 0)
+    order = [k for k in order if k not in walls]
+    closest = [kernels[k] for k in order]
+    harmless = () if elsewhere else tuple(_harmless(shapes, shining, walls))
+    blocking = [partial(_blocks, kernels[k]) for k in order if k not in harmless]
+    if walls:
+        box = room.RoomKernel(sides, shapes, kernels, extent, dtype)
+        lamps = [shape for shape, lit in zip(shapes, shining, strict=True) if lit]
+        box.never_blocks = not elsewhere and all(box.holds(_corners(lamp)) for lamp in lamps)
+        closest.insert(sum(bool(shining[k]) for k in order), box)
+        blocking.append(box.blocks)
+    return Arrangement(closest, blocking, walls, harmless)
+
+
+def _blocks(kernel, rays, distance):
+    return kernel.closest(rays, distance)[0] < distance
+
+
+def _harmless(shapes, shining, walls):
+    """Shapes that never lie between a surface and a point on a shape that shines."""
+    lit = [k for k in range(len(shapes)) if shining[k]]
+    for k, shape in enumerate(shapes):
+        if k in walls or shape.primitives > 1:
+            continue
+        n, c = shape.planes()
+        alone = lit == [k]
+        if alone or (isinstance(shape, Rectangle) and all(_in_front(other, n[:, 0], c[0]) for other in shapes)):
+            yield k
+
+
+def _in_front(shape, n, c):
+    """Whether no part of a shape lies behind the plane n . x = c, but for rounding."""
+    heights = n @ _corners(shape) - c
+    return heights.min() >= -_SLACK * max(abs(c), np.abs(heights).max())
+
+
+def _corners(shape):
+    """Points (3, K) whose convex hull holds the shape."""
+    if isinstance(shape, Sphere):
+        sides = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        return (shape.center + shape.radius * sides).T
+    return shape.triangles()[0].T
