@@ -80,24 +80,36 @@ class AreaLights:
         square = dot(to_light, to_light)
         distance = np.sqrt(square)
         wi = to_light / distance
-        by_area = technique == AREA
-        if by_area.any():
-            cos = -dot(nq, wi)
-            density = np.where(by_area, density * (square / np.abs(cos)) * (cos > 0.0), density)
-            density = np.where(by_area & ~(cos > 0.0), 0.0, density)
-        light = self._light.take(face)
+        if self._only == AREA:
+            density = self._per_angle(density, square, -dot(nq, wi))
+        elif (by_area := technique == AREA).any():
+            density = np.where(by_area, self._per_angle(density, square, -dot(nq, wi)), density)
+        if self.count == 1:  # one face is broadcast instead of repeated
+            light, primitive, pick, chance, radiance = (
+                self._light, self._primitive, self._pick, self._chance, self.radiance,
+            )  # fmt: skip
+        else:
+            light = self._light.take(face)
+            primitive, pick, chance = self._primitive.take(face), self._pick.take(light), self._chance.take(face)
+            radiance = self.radiance.take(light, axis=1)
+        n = distance.shape
         return LightSample(
-            light,
-            self._primitive.take(face),
-            self._pick.take(light),
+            np.broadcast_to(light, n),
+            np.broadcast_to(primitive, n),
+            np.broadcast_to(pick, n),
             technique,
             q,
             np.broadcast_to(nq, p.shape),
             wi,
             distance,
-            self.radiance.take(light, axis=1) * (density > 0.0),
-            density * self._chance.take(face),
+            radiance * (density > 0.0),
+            density * chance,
         )
+
+    @staticmethod
+    def _per_angle(density, square, cos):
+        """A density per area as one per solid angle, 0 behind the face."""
+        return density * (square * (cos > 0.0) / np.maximum(cos, np.finfo(cos.dtype).tiny))
 
     def pdf(self, primitive, p, q, n):
         """Density in sr^-1 with which sample, from p (3, N), gives the direction to q on `primitive` (N,),
@@ -118,7 +130,6 @@ class AreaLights:
     def _drawn(self, p, u, face):
         """technique (N,), q and nq (3, N), density (N,): per m^2 where the technique is AREA."""
         if self._only is not None:
-            # One face is broadcast instead of repeated.
             return self._draw[self._only](self, p, u, slice(0, 1) if self.count == 1 else face)
         way = self._way.take(face)
         parts = []
@@ -155,10 +166,13 @@ class AreaLights:
         omega = rectangle.solid_angle(seen)
         usable = omega > self._least
         s, t = rectangle.uniform(seen, omega, u[0], u[1])
-        s, t = np.where(usable, s, u[0]), np.where(usable, t, u[1])
+        technique, density = SOLID_ANGLE, 1.0 / omega
+        if not usable.all():
+            s, t = np.where(usable, s, u[0]), np.where(usable, t, u[1])
+            density = np.where(usable, density, self._pdf_area[face])
+            technique = np.where(usable, SOLID_ANGLE, AREA)
         q = self._corner[:, face] + s * self._e1[:, face] + t * self._e2[:, face]
-        density = np.where(usable, 1.0 / omega, self._pdf_area[face])
-        return np.where(usable, SOLID_ANGLE, AREA), q, self._n[:, face], density
+        return np.broadcast_to(technique, omega.shape), q, self._n[:, face], density
 
     def _by_cone(self, p, u, face):
         """Points of spheres in the cone in which they are seen; by area from inside."""
