@@ -4,6 +4,7 @@ import json
 import os
 import sys
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -15,6 +16,8 @@ from tracer.settings import TracerError
 from viewer.bench_bsdf import bench_bsdf
 from viewer.export import export
 from viewer.options import Json, PathOptions, Whole, settings_and_steps, two_whole
+
+MOST_SPP = 4096  # samples of a pixel where only an error is asked for
 
 
 def _version():
@@ -39,6 +42,8 @@ def render(
     options: PathOptions | None = None,
     engine: str = "auto",
     workers: Annotated[int | None, Whole] = None,
+    until_error: float | None = None,
+    adaptive: str = "off",
     json: Json = False,
 ):
     """Render a scene to a picture (.exr and .npy keep the linear numbers, .png is for looking at).
@@ -53,17 +58,26 @@ def render(
         numpy, or auto, which is the same until there are others.
     workers
         Most processes to use (default: one for each core). The picture is the same for any number.
+    until_error
+        Stop each tile of 16 x 16 pixels when its relative error (root mean of se^2 / (mean^2 + 0.01)) is that
+        small; --spp is then the most (4096 unless said).
+    adaptive
+        mse or relmse: measure with 16 samples a pixel, then spend the rest of --spp, on average, where that
+        error is.
     """
     if engine not in ("auto", "numpy"):
         raise TracerError(f"engine: {engine!r} is not known; choose one of auto, numpy")
     if workers is not None and not 1 <= workers <= 1024:
         raise TracerError(f"workers: {workers} is not between 1 and 1024")
     settings, steps = settings_and_steps(options)
+    if until_error is not None and (options is None or options.spp == PathOptions().spp):
+        settings = replace(settings, spp=MOST_SPP)
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.png") if output is None else output
     check_path(path)
     with _progress("rendering") as progress:
-        picture = tracer.render(loaded, settings, progress, workers or os.cpu_count() or 1, steps)
+        workers = workers or os.cpu_count() or 1
+        picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
     tracer.write(picture, path, scene=str(scene))
     _report(loaded, picture, path, json)
     return 0 if picture.complete else 130
@@ -87,6 +101,8 @@ def _report(scene, picture, path, as_json):
                 "rays": picture.rays,
                 "mean": [float(v) for v in picture.rgb.mean(axis=(0, 1), dtype="float64")],
                 "dropped": picture.dropped,
+                "samples": [int(picture.samples.min()), int(picture.samples.max())],
+                "saved": picture.saved,
                 "complete": picture.complete,
                 "settings": settings.as_dict(),
                 "out": str(path),
@@ -97,6 +113,10 @@ def _report(scene, picture, path, as_json):
     print(
         f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"
     )
+    if picture.samples.min() < picture.samples.max():
+        every = sorted(picture.samples.ravel().tolist())
+        spent = f"{every[0]} to {every[-1]}, median {every[len(every) // 2]}"
+        print(f"samples per pixel: {spent}; {picture.saved:.1%} of {settings.spp} saved")
     if not picture.complete:
         print(f"stopped early: every pixel has at least {picture.samples.min()} of {settings.spp} samples")
     if picture.dropped:

@@ -48,8 +48,8 @@ def ends(scene, settings):
     """How many paths ended for each reason."""
     counts = {}
     for task in waves.tasks(settings):
-        pixel = np.repeat(np.arange(task.start, task.stop), task.samples)
-        sample = np.tile(np.arange(task.samples), task.stop - task.start)
+        pixel = np.repeat(task.numbers, task.samples)
+        sample = np.tile(np.arange(task.samples), task.numbers.size)
         wave = Wave(pixel % settings.width, pixel // settings.width, sample, settings)
         for event in waves.events(scene, settings, wave):
             if event.kind.name == "end":

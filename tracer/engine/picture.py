@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer import film
-from tracer.engine import waves
+from tracer.engine import plan, waves
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.recorder import RecordedPath, number, record
@@ -33,29 +33,36 @@ class Picture:
         """Number of paths traced."""
         return int(self.samples.sum())
 
+    @property
+    def saved(self):
+        """Share of the samples asked for that were not needed."""
+        return 1.0 - self.paths / (self.samples.size * self.settings.spp)
 
-def render(scene, settings, progress=None, workers=1, steps=RIGHT):
+
+def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=None, adaptive="off"):
     """Render `scene`.
 
     progress: called as progress(paths done, paths in all). workers: most processes to use; more than one
     only when the work is worth their start, and the picture is the same bit for bit. steps: the named steps
-    of the loop; settings.bug asks for those of `lessons.zoo.planted`. Ctrl-C returns the picture so far
-    with complete = False.
+    of the loop; settings.bug asks for those of `lessons.zoo.planted`. until_error: stop a tile when its root
+    mean of se^2 / (mean^2 + 0.01) is that small; settings.spp is then the most. adaptive: "mse" or "relmse"
+    spends settings.spp, on average, where that error is (see engine/plan.py). Ctrl-C returns the picture so
+    far with complete = False. Raises TracerError.
     """
     settings = _asked(scene, settings, steps)
     scene = scene.at(settings)
     width, height = settings.width, settings.height
     sheet = film.Film(width * height)
+    rounds = plan.rounds(settings, sheet, until_error, adaptive)
     rays = dropped = done = 0
     complete = True
     began = time.perf_counter()
     try:
-        for result in _results(scene, settings, steps, workers):
-            task = result.task
-            sheet.add(slice(task.start, task.stop), result.block)
+        for result in _results((scene, settings, steps), rounds, workers):
+            waves.collect(sheet, result)
             rays += result.rays
             dropped += result.dropped
-            done += (task.stop - task.start) * task.samples
+            done += result.task.paths
             if progress:
                 progress(done, width * height * settings.spp)
     except KeyboardInterrupt:
@@ -75,23 +82,24 @@ def _asked(scene, settings, steps):
     return settings.at_size_of(scene)
 
 
-def _results(scene, settings, steps, workers):
+def _results(job, rounds, workers):
     """Results in order: from this process, then from several once it is clear that the rest is worth it."""
     if workers == 1:
-        yield from (waves.trace(scene, settings, steps, task) for task in waves.tasks(settings))
+        for tasks in rounds:
+            yield from (waves.trace(*job, task) for task in tasks)
         return
     from tracer.engine import processes  # where it is used: multiprocessing takes long to import
 
-    tasks = waves.tasks(settings)
-    left = settings.width * settings.height * settings.spp
-    for task in tasks:
-        began = time.perf_counter()
-        yield waves.trace(scene, settings, steps, task)
-        paths = (task.stop - task.start) * task.samples
-        left -= paths
-        if (time.perf_counter() - began) / paths * left > processes.WORTH_A_START:
-            break
-    yield from processes.traced((scene, settings, steps), tasks, workers) if left else ()
+    _, settings, _ = job
+    left, together = settings.width * settings.height * settings.spp, processes.started(workers)
+    for tasks in rounds:
+        tasks = iter(tasks)
+        while not together and (task := next(tasks, None)) is not None:
+            began = time.perf_counter()
+            yield waves.trace(*job, task)
+            left -= task.paths
+            together = (time.perf_counter() - began) / task.paths * left > processes.WORTH_A_START
+        yield from processes.traced(job, tasks, workers) if together else ()
 
 
 @dataclass(frozen=True)

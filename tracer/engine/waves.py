@@ -18,12 +18,23 @@ LANES = 1 << 15
 
 
 class Task(NamedTuple):
-    """One block of samples of a row of pixels, numbered line by line."""
+    """Blocks of samples of some pixels, which are numbered line by line."""
 
-    start: int  # first pixel
-    stop: int  # after the last
-    sample: int  # first sample
-    samples: int  # how many
+    pixels: slice | np.ndarray  # from start to before stop, or (P,) numbers
+    sample: int | np.ndarray  # first sample of each block, or (P,) first samples
+    samples: int  # how many in a block, up to film.BLOCK
+
+    @property
+    def numbers(self):
+        """Numbers (P,) of the pixels."""
+        if isinstance(self.pixels, slice):
+            return np.arange(self.pixels.start, self.pixels.stop)
+        return self.pixels
+
+    @property
+    def paths(self):
+        """Number of paths to trace."""
+        return self.numbers.size * self.samples
 
 
 class Result(NamedTuple):
@@ -35,24 +46,45 @@ class Result(NamedTuple):
     dropped: int
 
 
-def tasks(settings, lanes=LANES):
-    """All tasks of a picture, block by block."""
-    pixels = settings.width * settings.height
+def tasks(settings, lanes=None):
+    """All tasks of a picture with the same number of samples everywhere, block by block."""
+    pixels, lanes = settings.width * settings.height, lanes or LANES
     for sample in range(0, settings.spp, film.BLOCK):
         samples = min(film.BLOCK, settings.spp - sample)
         step = max(1, lanes // samples)
         for start in range(0, pixels, step):
-            yield Task(start, min(start + step, pixels), sample, samples)
+            yield Task(slice(start, min(start + step, pixels)), sample, samples)
+
+
+def rows(pixels, sample):
+    """Tasks for whole blocks: of pixels (P,), from sample numbers (P,) on. A pixel's blocks come in order."""
+    step = max(1, LANES // film.BLOCK)
+    for start in range(0, pixels.size, step):
+        yield Task(pixels[start : start + step], sample[start : start + step], film.BLOCK)
 
 
 def trace(scene, settings, steps, task):
     """Trace one task and fold its samples."""
-    pixel = np.repeat(np.arange(task.start, task.stop), task.samples)
-    sample = np.tile(np.arange(task.sample, task.sample + task.samples), task.stop - task.start)
+    numbers = task.numbers
+    pixel = np.repeat(numbers, task.samples)
+    first = np.broadcast_to(task.sample, numbers.shape)
+    sample = (first[:, None] + np.arange(task.samples)).ravel()
     wave = Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
     deque(events(scene, settings, wave), maxlen=0)
     block = film.block(wave.radiance.reshape(3, -1, task.samples))
     return Result(task, block, wave.rays, wave.dropped)
+
+
+def collect(sheet, result):
+    """Add a result to the film."""
+    pixels, sample, _ = result.task
+    if np.ndim(sample) == 0:
+        sheet.add(pixels, result.block)
+        return
+    for first in np.unique(sample):  # several blocks of one pixel are added one after the other
+        here = sample == first
+        total, spread = result.block.total[:, here], result.block.spread[:, here]
+        sheet.add(pixels[here], result.block._replace(total=total, spread=spread))
 
 
 def events(scene, settings, wave):

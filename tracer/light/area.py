@@ -90,7 +90,11 @@ class AreaLights:
             )  # fmt: skip
         else:
             light = self._light.take(face)
-            primitive, pick, chance = self._primitive.take(face), self._pick.take(light), self._chance.take(face)
+            primitive, pick, chance = (
+                self._primitive.take(face),
+                self._pick.take(light),
+                self._chance.take(face),
+            )
             radiance = self.radiance.take(light, axis=1)
         n = distance.shape
         return LightSample(

@@ -30,8 +30,8 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
     """The Arrangement of a scene.
 
     first: number of each shape's first primitive; sealed: (S,) whether nothing goes on behind its front;
-    shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; corners: (3, 4, P)
-    of all primitives.
+    shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; corners: those of
+    all primitives, (3, 4, P).
     """
     kernels = [shape.kernel(int(k), extent, dtype, corners) for shape, k in zip(shapes, first, strict=True)]
     # Lamps first: of surfaces at exactly the same distance the first is met, so that one in the plane of a
@@ -64,7 +64,9 @@ def _harmless(shapes, shining, walls):
             continue
         n, c = shape.planes()
         alone = lit == [k]
-        if alone or (isinstance(shape, Rectangle) and all(_in_front(other, n[:, 0], c[0]) for other in shapes)):
+        if alone or (
+            isinstance(shape, Rectangle) and all(_in_front(other, n[:, 0], c[0]) for other in shapes)
+        ):
             yield k
 
 

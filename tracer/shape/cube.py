@@ -77,8 +77,8 @@ class Cube:
 class CubeKernel:
     """Three slabs in the cube's own frame.
 
-    A ray along a slab is in it for ever or never: the products, 0 times infinity where it lies in the plane of
-    a face, do not tell, and it would be lost.
+    A ray along a slab is in it for ever or never. The products do not tell (0 times infinity where it lies in
+    the plane of a face), and it would be lost.
     """
 
     faces = 6

@@ -64,8 +64,8 @@ def _side(rectangle, low, high):
 class RoomKernel:
     """Three slabs with the planes of the walls.
 
-    walls: as from find; kernels: of all shapes, for what starts outside. never_blocks: whether all that shines
-    lies in the box, so that no wall hides it from what is in there, too.
+    walls: as from find; kernels: of all shapes, for what starts outside. never_blocks: whether all that
+    shines lies in the box, so that no wall hides it from what is in there, too.
     """
 
     faces = 6
