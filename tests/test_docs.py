@@ -38,7 +38,7 @@ def examples():
 
 def dear(line):
     """Whether an example takes more than a few seconds."""
-    return line.startswith("castray bsdf")
+    return line.startswith(("castray bsdf", "castray bench"))
 
 
 @pytest.mark.parametrize(

@@ -38,13 +38,13 @@ def bench_bsdf(
     words
         The same words written as options: --alpha 0.2.
     """
-    from viewer import plot_bsdf
+    from viewer import plot_bsdf, plots
 
     if output is not None:
-        plot_bsdf.check_path(output)
+        plots.check_path(output)
     document, material = report(name, split(parameters, words))
     if output is not None:
-        plot_bsdf.write(plot_bsdf.figure(document, material), output)
+        plots.write(plot_bsdf.figure(document, material), output)
         document["out"] = str(output)
     if json:
         print(dumps(document, allow_nan=False, ensure_ascii=True))

@@ -13,9 +13,11 @@ from cyclopts import App, CycloptsError, Parameter
 import tracer
 from tracer.picture import check_path
 from tracer.settings import TracerError
+from viewer.bench import bench
 from viewer.bench_bsdf import bench_bsdf
 from viewer.export import export
 from viewer.options import Json, PathOptions, Whole, settings_and_steps, two_whole
+from viewer.progress import watched
 
 MOST_SPP = 4096  # samples of a pixel where only an error is asked for
 
@@ -75,7 +77,7 @@ def render(
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.png") if output is None else output
     check_path(path)
-    with _progress("rendering") as progress:
+    with watched("rendering") as progress:
         workers = workers or os.cpu_count() or 1
         picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
     tracer.write(picture, path, scene=str(scene))
@@ -232,6 +234,7 @@ def view(
     viewer_app.serve(tracer.load(scene), settings, port, browser)
 
 
+app.command(bench)
 app.command(export)
 app.command(bench_bsdf, name="bsdf")
 
@@ -256,17 +259,6 @@ def bugs(*, json: Json = False):
 
 def _print_json(document):
     print(json.dumps(document, allow_nan=False, ensure_ascii=True))
-
-
-def _progress(what):
-    """A context that gives a function progress(done, total), or None where nobody watches."""
-    from contextlib import nullcontext
-
-    if not sys.stderr.isatty():
-        return nullcontext()
-    from viewer.progress import bar
-
-    return bar(what)
 
 
 def _say(message, *_):

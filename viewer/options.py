@@ -8,6 +8,8 @@ from cyclopts import Parameter
 from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
 
+SMALL_SIDE = 64  # pixels
+
 
 def _whole(type_, tokens):
     """A whole number, and not a rounded one."""
@@ -18,6 +20,10 @@ def two_whole(type_, tokens):
     return tuple(_integer(token.value, f"{token.keyword}: ") for token in tokens)
 
 
+def several_whole(type_, tokens):
+    return [_integer(token.value, f"{token.keyword}: ") for token in tokens]
+
+
 def _integer(text, place=""):
     try:
         return int(text)
@@ -25,34 +31,40 @@ def _integer(text, place=""):
         raise TracerError(f"{place}{text!r} is not a whole number") from None
 
 
-def _path_options():
-    """The options that decide a path's numbers, made from the one place where they are declared."""
-    text = "width and height in pixels (default: the scene's)"
-    size = Annotated[
+def path_options(name, without=(), size="default: the scene's"):
+    """The options that decide a path's numbers as a class of that name, made from the one place where they
+    are declared; those in `without` are left out."""
+    text = f"width and height in pixels ({size})"
+    shape = Annotated[
         tuple[int, int] | None, Parameter(help=text, converter=two_whole, n_tokens=2, negative=())
     ]
-    columns: list[Any] = [("size", size, None)]
+    columns: list[Any] = [("size", shape, None)]
     for f in fields(Settings):
-        if f.name in ("width", "height"):
+        if f.name in ("width", "height", *without):
             continue
         choices = f.metadata["choices"]
         text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
         converter = _whole if f.type is int else None
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
     return Parameter(name="*", group="Path options")(
-        make_dataclass("PathOptions", columns, frozen=True, namespace={"__module__": __name__})
+        make_dataclass(name, columns, frozen=True, namespace={"__module__": __name__})
     )
 
 
-PathOptions = _path_options()
+PathOptions = path_options("PathOptions")
+BenchOptions = path_options(  # without what `castray bench` measures
+    "BenchOptions",
+    ("integrator", "strategy", "sampler", "precision", "spp"),
+    f"default: the scene's, made smaller until its longer side is {SMALL_SIDE}",
+)
 Whole = Parameter(converter=_whole)
 Json = Annotated[bool, Parameter(help="print one JSON document and nothing else", negative=())]
 
 
 def settings_and_steps(options):
-    """Settings and named steps that the path options ask for."""
+    """Settings and named steps that the path options ask for; what is not among them has its default."""
     options = options or PathOptions()
     width, height = options.size or (None, None)
-    names = [f.name for f in fields(Settings) if f.name not in ("width", "height")]
-    settings = Settings(width=width, height=height, **{name: getattr(options, name) for name in names})
+    said = {f.name: getattr(options, f.name) for f in fields(options) if f.name != "size"}
+    settings = Settings(width=width, height=height, **said)
     return settings, planted(settings)

@@ -3,20 +3,10 @@
 import numpy as np
 
 from tracer import material_bench as bench
-from tracer.settings import TracerError
+from viewer.plots import COLOURS, GREY
 
 TILTS = (0.0, 30.0, 60.0)
-COLOURS = ("#0072b2", "#d55e00", "#009e73")  # told apart by everyone (Okabe and Ito)
 CHANNELS = ("#c1272d", "#3a923a", "#2f5fb3")
-GREY = "#666666"
-
-
-def check_path(path):
-    """TracerError unless a picture of that name can be written."""
-    if path.suffix.lower() not in (".png", ".svg"):
-        raise TracerError(f"{path}: a plot is written as .png or .svg")
-    if not path.resolve().parent.is_dir():
-        raise TracerError(f"{path}: there is no folder {path.resolve().parent}")
 
 
 def figure(document, material):
@@ -36,19 +26,11 @@ def figure(document, material):
     return page
 
 
-def write(page, path):
-    """Write a Figure to .png or .svg."""
-    try:
-        page.savefig(path, dpi=120)
-    except OSError as error:
-        raise TracerError(f"{path}: cannot be written: {error.strerror or error}") from None
-
-
 def _lobes(axes, material):
     """f |cos| against the angle, each direction's own largest value at the rim; Dirac lobes as arrows."""
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)
-    for tilt, colour in zip(TILTS, COLOURS, strict=True):
+    for tilt, colour in zip(TILTS, COLOURS, strict=False):
         angles, value = bench.lobes(material, tilt, 3601)
         mean = value.mean(axis=0)
         label = f"wo at {tilt:.0f}°"
@@ -138,7 +120,7 @@ def _samples(axes, material):
     if material.delta:
         _dirac_shares(axes, found)
         return
-    for tilt, colour, h in zip(TILTS, COLOURS, found, strict=True):
+    for tilt, colour, h in zip(TILTS, COLOURS, found, strict=False):
         width, middle = np.diff(h.edges), 0.5 * (h.edges[1:] + h.edges[:-1])
         label = f"wo at {tilt:.0f}°: p = {h.p:.2f}"
         for lobe, (share, said) in h.dirac.items():
@@ -160,7 +142,7 @@ def _dirac_shares(axes, found):
     """Bars of how often each Dirac lobe was chosen, and dots where its probability says."""
     rows = [
         (f"{tilt:.0f}°, {lobe}", share, said, colour)
-        for tilt, colour, h in zip(TILTS, COLOURS, found, strict=True)
+        for tilt, colour, h in zip(TILTS, COLOURS, found, strict=False)
         for lobe, (share, said) in h.dirac.items()
     ]
     names, shares, said, colours = zip(*reversed(rows), strict=True)

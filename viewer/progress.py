@@ -1,6 +1,12 @@
 """Progress of long work, on standard error."""
 
-from contextlib import contextmanager
+import sys
+from contextlib import contextmanager, nullcontext
+
+
+def watched(what):
+    """A context that gives a function progress(done, total), or None where nobody watches."""
+    return bar(what) if sys.stderr.isatty() else nullcontext()
 
 
 @contextmanager
