@@ -7,6 +7,7 @@ from collections import deque
 
 import numpy as np
 from cases import INTEGRATORS, loaded
+from glass import SIGMA_T, THICK, filled, lamp_behind, slab, slab_shares
 from stats import chi_square, mean_and_error, sidak, uniform
 
 import tracer
@@ -219,6 +220,14 @@ def loops(seed, steps=RIGHT):
     return max(fine, agreement([found["walk"]], [found["direct"]]))
 
 
+def coloured(seed, steps=RIGHT):
+    """What a slab of coloured glass lets through."""
+    settings = Settings(width=1, height=1, spp=4000, seed=seed, max_depth=12, roulette="off")
+    mean, error = mean_and_error(samples(lamp_behind(slab=slab(interior=filled())), settings, steps))
+    truth = slab_shares(0.04, np.exp(-THICK * np.array(SIGMA_T)))[0]
+    return off(mean, truth, error, 1e-5 * truth)
+
+
 def regions(seed, steps=RIGHT):
     """The homework's regions."""
     settings = Settings(width=784, height=784, spp=4, seed=seed, integrator="direct", jitter=False)
@@ -226,4 +235,4 @@ def regions(seed, steps=RIGHT):
 
 
 # From the cheapest to the dearest.
-CHECKS = (lamp_points, bounces, shadows, spread, energy, regions, loops)
+CHECKS = (lamp_points, bounces, coloured, shadows, spread, energy, regions, loops)

@@ -22,7 +22,8 @@ class Field:
     """One named quantity of an event.
 
     shape: () or (k,). domain: what values are lawful; "choice" and the scene's tables ("shape", "bsdf",
-    "light") are whole numbers that stand for a name.
+    "light") are whole numbers that stand for a name. otherwise: what a carried field is where the loop leaves
+    it out because the scene has no such thing; readers are then not shown it.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Field:
     unit: str = ""
     choices: tuple = ()
     derive: Callable | None = None
+    otherwise: float | None = None
 
     @property
     def carried(self):
@@ -64,9 +66,14 @@ class Kind:
         """Names of the fields that the loop yields."""
         return frozenset(f.name for f in self.fields if f.carried)
 
+    @cached_property
+    def needed(self):
+        """Names of those that it always yields."""
+        return frozenset(f.name for f in self.fields if f.carried and f.otherwise is None)
+
     def __call__(self, lane, depth, **columns):
-        if columns.keys() != self.carried:
-            odd = ", ".join(sorted(columns.keys() ^ self.carried))
+        if not self.needed <= columns.keys() <= self.carried:
+            odd = ", ".join(sorted((self.needed - columns.keys()) | (columns.keys() - self.carried)))
             raise TypeError(f"{self.name} event: missing or unknown: {odd}")
         return Event(self, lane, depth, columns)
 
@@ -76,6 +83,11 @@ class Kind:
             if f.name == name:
                 return f
         raise KeyError(f"{self.name} has no field {name}")
+
+
+def _transmittance(way):
+    """What is left of the light after a way through the inside of glass; 1 where there is none."""
+    return Field("transmittance", f"share of the light that gets {way}", (3,), "probability", otherwise=1.0)
 
 
 def _microfacet():
@@ -133,6 +145,7 @@ HIT = Kind(
         Field("wo", "direction back along the path", (3,), "unit vector"),
         Field("cos_wo", "cosine between n and wo", (), "cosine", derive=derived.cos_wo),
         Field("front", "whether the ray came from the side of ng", (), "flag"),
+        _transmittance("through what fills the way here"),
         Field("beta", "throughput on arrival", (3,), "non-negative"),
         Field("Le", "radiance the surface itself sends along wo", (3,), "non-negative", "W/m²/sr"),
         Field(
@@ -187,6 +200,7 @@ LIGHT = Kind(
             "m",
             derive=derived.blocker_distance,
         ),
+        _transmittance("through what fills the way from q"),
         Field("f", "BSDF from wi to wo, without the cosine", (3,), "non-negative", "1/sr"),
         Field("cos", "cosine between n and wi (absolute)", (), "cosine"),
         Field("cos_light", "cosine at the light, negative behind it", (), "cosine", derive=derived.cos_light),

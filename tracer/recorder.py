@@ -54,7 +54,7 @@ def record(events, scene, wave):
     rows = [[] for _ in range(wave.x.size)]
     vertex = {}
     for event in events:
-        columns = dict(event.columns)
+        columns = dict(event.columns) | _left_out(event, scene.dtype)
         if event.kind is HIT:
             _remember(vertex, event, wave.x.size)
         here = {name: column[..., event.lane] for name, column in vertex.items()}
@@ -64,6 +64,15 @@ def record(events, scene, wave):
         for row, (lane, depth) in enumerate(zip(event.lane.tolist(), event.depth.tolist(), strict=True)):
             rows[lane].append(RecordedEvent(event.kind, len(rows[lane]), depth, columns, row))
     return tuple(_path(wave, lane, tuple(events)) for lane, events in enumerate(rows))
+
+
+def _left_out(event, dtype):
+    """The columns that the loop had nothing to say about."""
+    return {
+        f.name: np.full((*f.shape, event.lane.size), f.otherwise, dtype)
+        for f in event.kind.fields
+        if f.otherwise is not None and f.name not in event.columns
+    }
 
 
 def _remember(vertex, event, lanes):

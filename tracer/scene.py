@@ -21,6 +21,7 @@ class Surface(NamedTuple):
     shape: object
     bsdf: str  # name of its material
     radiance: np.ndarray | None = None  # (3,) if it shines
+    interior: np.ndarray | None = None  # (3,) share of the light lost per metre in what fills it
 
 
 class Definition(NamedTuple):
@@ -34,6 +35,7 @@ class Definition(NamedTuple):
     height: int
     source: tuple | None = None  # the description it was made from, and the folder of its files
     emitters: tuple = ()  # lights that are no shapes
+    media: object = None  # medium.Media of the surfaces, None where nothing is filled
 
 
 class Hit(NamedTuple):
@@ -74,6 +76,8 @@ class Scene:
         of_shape = np.array([self.bsdf_names.index(s.bsdf) for s in definition.surfaces], np.int32)
         self.bsdf_of = of_shape[self.shape_of]
         self.bsdf = BsdfTable(tuple(definition.bsdfs.values()), dtype, hemisphere)
+        media = definition.media
+        self.media = media and media.of_primitives(self.shape_of, dtype)  # None: light loses nothing anywhere
         self._prepare_planes()
         self._prepare_lights()
         self._others = {}
@@ -288,9 +292,12 @@ class Scene:
         return vertices.min(axis=0), vertices.max(axis=0)
 
     def display_colour(self, shape):
-        """Linear colour (3,) that stands for a shape in drawings."""
+        """Linear colour (3,) that stands for a shape in drawings; what fills it counts with its thickness."""
         surface = self.definition.surfaces[shape]
-        return np.clip(self.definition.bsdfs[surface.bsdf].display_colour()[:, 0], 0.0, 1.0)
+        colour = np.clip(self.definition.bsdfs[surface.bsdf].display_colour()[:, 0], 0.0, 1.0)
+        if surface.interior is None:
+            return colour
+        return colour * np.exp(-surface.interior * np.ptp(surface.shape.triangles()[0], axis=0).min())
 
     def is_light(self, shape):
         """Whether a shape shines."""

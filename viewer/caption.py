@@ -32,9 +32,15 @@ def shown(field, value, scene, say):
     return several(value)
 
 
-def applies(value):
-    """Whether a field means anything at its event: a derived one that does not is NaN throughout."""
-    return not (np.issubdtype(np.asarray(value).dtype, np.floating) and np.isnan(value).all())
+def applies(field, value):
+    """Whether a field means anything at its event.
+
+    A derived one that does not is NaN throughout, and one that the loop may leave out has the schema's value.
+    """
+    nothing = np.nan if field.otherwise is None else field.otherwise
+    return not (
+        np.issubdtype(np.asarray(value).dtype, np.floating) and np.allclose(value, nothing, 0, 0, True)
+    )
 
 
 def caption(event, scene, say):
@@ -47,7 +53,7 @@ def _camera(v, scene, say):
 
 
 def _hit(v, scene, say):
-    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"]))
+    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"])) + _through(v, say)
     if not np.any(v["Le"] > 0):
         return text
     return (
@@ -58,25 +64,35 @@ def _hit(v, scene, say):
 
 
 def light_outcome(v):
-    """What became of a light sample: behind, below, blocked, lit or nothing."""
+    """What became of a light sample: behind, below, absorbed, blocked, lit or nothing."""
     if v["cos_light"] <= 0:
         return "behind"
     if not np.any(v["f"] > 0):
         return "below"
+    if not np.any(v["transmittance"] > 0):  # nothing can arrive: whether q is seen was not asked
+        return "absorbed"
     if not v["visible"]:
         return "blocked"
     return "lit" if np.any(v["contribution"] > 0) else "nothing"
 
 
 def _light(v, scene, say):
-    return say(
-        f"caption.light.{light_outcome(v)}",
+    outcome = light_outcome(v)
+    text = say(
+        f"caption.light.{outcome}",
         light=_name("light", v["light"], scene),
         blocker=_name("shape", v["blocker"], scene),
         distance=short(v["distance"]),
         at=short(v["blocker_distance"]),
         w=short(v["w"]),
     )
+    return text + _through(v, say) if outcome == "lit" else text
+
+
+def _through(v, say):
+    """What coloured glass lets through on the way, if there is any."""
+    left = v["transmittance"]
+    return "" if np.all(left == 1.0) else " " + say("caption.through", left=several(left))
 
 
 def _bounce(v, scene, say):

@@ -51,7 +51,7 @@ def formulas(path, index, settings, say):
     """Everything the equation panel shows for one event, ready to send."""
     event = path.events[index]
     product = PRODUCTS.get(event.kind.name, lambda v, beta: None)(
-        event.values, throughput(path.events, index)
+        event.values, throughput(path.events, index - 1)
     )
     if product is None:
         plain = {"legend": [], "result": "", "differs": "", "weight": None}
@@ -67,12 +67,24 @@ def formulas(path, index, settings, say):
 
 
 def _hit(v, beta):
-    over = (Factor(r"\beta", "beta", v["beta"]), Factor("L_e", "Le", v["Le"]), Factor("w", "w", v["w"]))
-    return Product("L += ", over, (), v["contribution"])
+    """beta: throughput before the way here."""
+    arriving: tuple = (Factor(r"\beta", "beta", v["beta"]),)
+    if _absorbed(v):
+        arriving = (Factor(r"\beta", "beta_before", beta), Factor("T", "transmittance", v["transmittance"]))
+        if not np.any(v["Le"] > 0):
+            return Product(r"\beta' = ", arriving, (), v["beta"])
+    return Product(
+        "L += ", (*arriving, Factor("L_e", "Le", v["Le"]), Factor("w", "w", v["w"])), (), v["contribution"]
+    )
+
+
+def _absorbed(v):
+    """Whether anything was lost on the way."""
+    return np.any(v["transmittance"] != 1.0)
 
 
 def _light(v, beta):
-    over = (
+    over: tuple = (
         Factor(r"\beta", "beta", v["beta"]),
         Factor("f", "f", v["f"]),
         Factor(r"\cos\theta", "cos", v["cos"]),
@@ -80,6 +92,8 @@ def _light(v, beta):
         Factor("V", "visible", v["visible"]),
         Factor("w", "w", v["w"]),
     )
+    if _absorbed(v):
+        over = (*over[:4], Factor("T", "transmittance", v["transmittance"]), *over[4:])
     return Product("L += ", over, (Factor("p", "pdf", v["pdf"]),), v["contribution"])
 
 

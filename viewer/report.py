@@ -36,7 +36,7 @@ def _print_path(path, scene, say, console):
         console.print(head)
         for field in event.kind.fields:
             value = event.values[field.name]
-            if applies(value):
+            if applies(field, value):
                 _print_field(field, value, event.kind.name not in explained, scene, say, console)
         explained.add(event.kind.name)
     dead = why_dead(path, scene, say)

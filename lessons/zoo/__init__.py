@@ -7,12 +7,12 @@ Ids are stable: links, recordings and lessons name them.
 
 from dataclasses import replace
 
-from lessons.zoo import bounce, emission, film, light, roulette
+from lessons.zoo import bounce, emission, film, glass, light, roulette
 from lessons.zoo.bug import Bug
 from tracer.integrator.steps import RIGHT
 from tracer.settings import TracerError
 
-ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film) for bug in family.BUGS}
+ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film, glass) for bug in family.BUGS}
 
 __all__ = ["RIGHT", "ZOO", "Bug", "changed", "planted", "steps"]
 

@@ -46,7 +46,7 @@ def all_of(settings):
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", slow_but(SCENES, "cornell", "cornell_glass"))
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell", "cornell_glass"))
 def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
     suite_seed, scene, integrator, precision
 ):
@@ -65,7 +65,7 @@ def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", slow_but(SCENES, "cornell_glass"))
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_neither_wave_nor_order_changes_a_path(suite_seed, scene, integrator, precision):
     settings = square(spp=3, integrator=integrator, precision=precision, seed=suite_seed)
     scene = loaded(scene).at(settings)
@@ -132,7 +132,7 @@ def test_a_sample_does_not_depend_on_how_many_there_are(suite_seed, scene):
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", slow_but(SCENES, "cornell", "cornell_glass"))
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell", "cornell_glass"))
 def test_watching_changes_nothing(suite_seed, scene, integrator, precision):
     settings = square(spp=3, integrator=integrator, precision=precision, seed=suite_seed)
     rendered = tracer.render(loaded(scene), settings).rgb
@@ -172,7 +172,7 @@ def written_again(scene, settings, steps=zoo.RIGHT):
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", [*SCENES, "coloured_glass"])
 def test_a_yielded_array_is_never_written_again(suite_seed, scene, integrator):
     settings = square(spp=2, integrator=integrator, seed=suite_seed)
     assert not written_again(loaded(scene), settings)

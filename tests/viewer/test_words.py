@@ -12,7 +12,7 @@ from viewer.words import WORDS, Speaker
 SAY = Speaker()
 
 
-@pytest.fixture(scope="module", params=["cornell_unit", "cornell_glass", "furnace"])
+@pytest.fixture(scope="module", params=["cornell_unit", "cornell_glass", "furnace", "coloured_glass"])
 def pixels(request):
     """A scene, its settings and some recorded pixels."""
     scene = tracer.load(request.param)

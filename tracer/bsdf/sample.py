@@ -30,6 +30,7 @@ class Material:
     delta = False  # whether all lobes are Dirac ones
     one_sided = True  # whether it scatters on the side of the normal only
     see_through = False  # whether light passes to the other side
+    thin = False  # whether there is nothing between the sides: two faces taken for one
     vanishes = False  # whether light passes as if nothing were there
 
     @property

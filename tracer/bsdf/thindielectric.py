@@ -25,6 +25,7 @@ class ThinDielectric(Material):
     delta = True
     one_sided = False
     see_through = True
+    thin = True
 
     @property
     def vanishes(self):

@@ -20,6 +20,7 @@ class Direct(NamedTuple):
     cos: np.ndarray  # (N,) absolute cosine there
     pdf_bsdf: np.ndarray  # (N,) density of a bounce in the same direction
     u: np.ndarray  # (3, N) the numbers used
+    transmittance: np.ndarray | None  # (3, N) share of the light left after the way, None for all of it
 
 
 def refuse_unmeetable(scene, who):
@@ -33,6 +34,8 @@ def refuse_unmeetable(scene, who):
 
 def hit_event(paths, hit, **light):
     """The HIT of paths; light: Le, pdf_light, w and contribution."""
+    if paths.transmittance is not None:
+        light["transmittance"] = paths.transmittance
     return HIT(
         paths.lane,
         paths.depth,
@@ -69,14 +72,21 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
     pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi)
     if scene.lights.any_delta:  # no bounce meets these lights: their samples are never weighted
         pdf_bsdf = np.where(light.technique == _DELTA, 0.0, pdf_bsdf).astype(f.dtype)
-    return Direct(lanes, light, f, np.abs(cos_theta(wi)), pdf_bsdf, u)
+    left = None
+    if paths.medium is not None:
+        medium = scene.media.towards(hit, light.wi, paths.medium)
+        left = wave.steps.transmittance(scene, medium, light.distance)
+    return Direct(lanes, light, f, np.abs(cos_theta(wi)), pdf_bsdf, u, left)
 
 
 def add_light(scene, wave, paths, hit, direct, w):
     """Cast the shadow rays that can carry light and add what arrives; yield the event, return the paths."""
-    lanes, light, f, cos, pdf_bsdf, u = direct
+    lanes, light, f, cos, pdf_bsdf, u, left = direct
     beta = paths.beta[:, lanes]
     arriving = wave.steps.light_term(beta, f, cos, light, w)
+    through = {}
+    if left is not None:
+        arriving, through = arriving * left, {"transmittance": left}
     bright = np.flatnonzero((arriving != 0.0).any(axis=0))
     visible = np.zeros(w.shape, bool)
     if bright.size:
@@ -105,6 +115,7 @@ def add_light(scene, wave, paths, hit, direct, w):
         beta=beta,
         u=u,
         contribution=contribution,
+        **through,
     )
     if isinstance(lanes, slice):
         return paths._replace(L=paths.L + contribution)
@@ -148,6 +159,8 @@ def go_on(scene, wave, paths, hit, frame, wo):
         sample = sample._replace(f=sample.f * sides_agree(hit, wi))
     cos = np.abs(cos_theta(sample.wi))
     nowhere = ~((sample.pdf > 0.0) & (sample.f > 0.0).any(axis=0))
+    if paths.medium is not None:
+        nowhere |= ~(paths.beta > 0.0).any(axis=0)  # nothing got through to here
     paths, hit, wi, sample, cos, u = yield from wave.stop(paths, nowhere, "absorbed", hit, wi, sample, cos, u)
     beta = steps.throughput(paths.beta, sample, cos)
     yield bounce_event(paths, sample, wi, cos, u, beta)
@@ -157,6 +170,8 @@ def go_on(scene, wave, paths, hit, frame, wo):
     if played.size:
         paths, hit, wi = yield from _play(wave, paths, hit, wi, q, played)
     o, d = steps.next_ray(scene, hit, wi)
+    if paths.medium is not None:
+        paths = paths._replace(medium=scene.media.towards(hit, d, paths.medium))
     return paths._replace(depth=paths.depth + 1, o=o, d=d, vertex=hit.p, source=hit.primitive)
 
 

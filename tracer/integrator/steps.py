@@ -48,6 +48,12 @@ def visibility(scene, hit, light):
     return ~scene.occluded(hit, light)
 
 
+def transmittance(scene, medium, distance):
+    """Share (3, N) of the light that is left after a distance (N,) in metres through media, by number:
+    exp(-sigma_t t). Asked only in scenes where something is filled."""
+    return scene.media.transmittance(medium, distance)
+
+
 def light_term(beta, f, cos, light, w):
     """beta f cos Le w / pdf, (3, N), for what is visible; 0 where the density is 0."""
     return beta * f * light.Le * np.where(light.pdf > 0.0, cos * w / light.pdf, 0.0)
@@ -96,6 +102,7 @@ class Steps:
     light_weight: Callable = light_weight
     light_point: Callable = light_point
     visibility: Callable = visibility
+    transmittance: Callable = transmittance
     light_term: Callable = light_term
     bounce: Callable = bounce
     throughput: Callable = throughput

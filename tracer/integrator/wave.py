@@ -25,10 +25,13 @@ class Paths(NamedTuple):
     beta: np.ndarray  # (3, N) throughput
     pdf_bsdf: np.ndarray  # (N,) density of d in sr^-1; inf from the camera and after a Dirac lobe
     L: np.ndarray  # (3, N) radiance gathered so far
+    # Only in scenes where something is filled:
+    medium: np.ndarray | None = None  # (N,) number of the medium the ray travels in
+    transmittance: np.ndarray | None = None  # (3, N) share of the light left after the last way
 
     def take(self, lanes):
         """The paths of some lanes."""
-        return Paths(*(column.take(lanes, axis=-1) for column in self))
+        return Paths(*(None if column is None else column.take(lanes, axis=-1) for column in self))
 
 
 class Wave:
@@ -65,6 +68,8 @@ class Wave:
             lane, pixel, self.sample, depth, o, d, o,
             np.full(n, -1, np.int32), beta, np.full(n, np.inf, dtype), np.zeros((3, n), dtype),
         )  # fmt: skip
+        if scene.media is not None:
+            paths = paths._replace(medium=np.full(n, scene.media.camera, np.int32))
         if self.settings.max_depth == 0:
             yield self.end(paths, "max_depth")
             return paths.take(np.empty(0, np.intp))
@@ -83,6 +88,9 @@ class Wave:
             yield self.end(lost, "escaped")
             lanes = np.flatnonzero(met)
             paths, t, primitive = paths.take(lanes), t[lanes], primitive[lanes]
+        if paths.medium is not None:
+            left = self.steps.transmittance(scene, paths.medium, t)
+            paths = paths._replace(beta=paths.beta * left, transmittance=left)
         return paths, scene.hit(paths.o, paths.d, t, primitive)
 
     def _escape(self, scene, paths, strategy):

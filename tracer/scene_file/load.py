@@ -7,8 +7,9 @@ which they are applied. What is not supported is an error that names the place a
 import copy
 from pathlib import Path
 
+from tracer import medium
 from tracer.scene import Definition, Scene, Surface
-from tracer.scene_file import emitters, limits, materials, objects
+from tracer.scene_file import emitters, interior, limits, materials, objects
 from tracer.scene_file.words import Words, listed, shown
 from tracer.settings import TracerError
 
@@ -93,44 +94,58 @@ def load_dict(description, name="scene", folder="."):
         raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
     limits.check(surfaces, camera)
-    surfaces = _visible(surfaces, bsdfs)
+    surfaces, media = _visible(surfaces, bsdfs, medium.around(surfaces, bsdfs, camera.origin))
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
     lights = (
         emitters.emitter(named[key], key, Path(folder)) for key, kind in kinds.items() if kind == "emitter"
     )
     lights = emitters.only_one_sky(tuple(lights))
     source = copy.deepcopy(description), Path(folder)
-    return Scene(Definition(name, surfaces, used, camera, width, height, source, lights))
+    return Scene(Definition(name, surfaces, used, camera, width, height, source, lights, media))
 
 
 def _surface(table, bsdfs, folder):
     """One shape with its material, which is added to `bsdfs` if it is written inside the shape."""
     shape = objects.shape(table, folder)
     radiance = emitters.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
-    given = table.take("bsdf", None)
+    given, filling = table.take("bsdf", None), table.take("interior", None)
+    interior.refuse_exterior(table)
     table.finish()
+    bsdf = _bsdf_of(given, table.place, bsdfs, radiance)
+    inside = interior.interior(filling, f"{table.place}.interior", shape, bsdfs[bsdf])
+    return Surface(shape, bsdf, radiance, inside)
+
+
+def _bsdf_of(given, place, bsdfs, radiance):
+    """Name of the material that a shape asks for."""
     if given is None:
         # As in Mitsuba: grey, but a lamp about which nothing is said is black.
         name, grey = ("default", 0.5) if radiance is None else ("default_lamp", 0.0)
         bsdfs.setdefault(name, materials.bsdf({"type": "diffuse", "reflectance": grey}, name))
-        return Surface(shape, name, radiance)
+        return name
     if isinstance(given, dict) and given.get("type") == "ref":
-        reference = Words(given, f"{table.place}.bsdf")
+        reference = Words(given, f"{place}.bsdf")
         given = reference.take("id")
         reference.take("type")
         reference.finish()
     if isinstance(given, dict):
-        inline = f"{table.place}.bsdf"
+        inline = f"{place}.bsdf"
         bsdfs[inline] = materials.bsdf(given, inline)
-        return Surface(shape, inline, radiance)
+        return inline
     if not isinstance(given, str) or given not in bsdfs:
         known = listed(bsdfs) or "none"
-        raise TracerError(f"{table.place}.bsdf: no material {shown(given)} in this scene; there are {known}")
-    return Surface(shape, given, radiance)
+        raise TracerError(f"{place}.bsdf: no material {shown(given)} in this scene; there are {known}")
+    return given
 
 
-def _visible(surfaces, bsdfs):
-    """The surfaces without those that light passes as if they were not there (an index of 1, no colour); all
-    of them if nothing else were left."""
-    seen = tuple(s for s in surfaces if s.radiance is not None or not bsdfs[s.bsdf].vanishes)
-    return seen or surfaces
+def _visible(surfaces, bsdfs, media):
+    """The surfaces and media without those that light passes as if they were not there (an index of 1, no
+    colour, the same medium on both sides); all of them if nothing else were left."""
+    kept = [
+        k
+        for k, s in enumerate(surfaces)
+        if s.radiance is not None or not bsdfs[s.bsdf].vanishes or (media and media.bounding[k])
+    ]
+    if not kept:
+        return surfaces, media
+    return tuple(surfaces[k] for k in kept), media and media.of_shapes(kept)

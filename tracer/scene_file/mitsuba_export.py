@@ -7,6 +7,7 @@ goes out as its matrix.
 """
 
 import re
+import warnings
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -16,6 +17,7 @@ from tracer.picture import write_whole
 from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.objects import kind_of
 from tracer.scene_file.to_world import to_world
+from tracer.scene_file.words import SceneWarning
 from tracer.settings import TracerError
 
 _POINTS, _VECTORS = ("center", "position", "p0", "p1"), ("direction",)
@@ -31,6 +33,7 @@ def export(scene, path):
     if path.suffix.lower() != ".xml":
         raise TracerError(f"{path}: a Mitsuba scene is an .xml file; say -o {path.stem or 'scene'}.xml")
     text = _Writer(scene, path.parent).text()
+    _warn_of_media(scene.definition)
     write_whole(path, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
 
 
@@ -48,8 +51,9 @@ class _Writer:
     def text(self):
         """The whole file."""
         root = ElementTree.Element("scene", version="3.0.0")
-        ElementTree.SubElement(root, "integrator", type="path")
         tables = {name: table for name, table in self.description.items() if name != "type"}
+        filled = any("interior" in table for table in tables.values())
+        ElementTree.SubElement(root, "integrator", type="volpath" if filled else "path")
         kinds = {name: kind_of(table, name) for name, table in tables.items()}
         for family in ("sensor", *sorted(set(kinds.values()) - {"sensor", "shape"}), "shape"):
             for name, table in tables.items():
@@ -115,6 +119,8 @@ class _Writer:
             ElementTree.SubElement(parent, "ref", id=_text(table["id"], place))
         elif word in ("film", "emitter"):
             self.object(parent, word, table)
+        elif word == "interior":
+            self.object(parent, "medium", _within_one(table), name=word)
         elif kind in BSDFS:
             self.object(parent, "bsdf", table)
         else:
@@ -124,6 +130,31 @@ class _Writer:
         """Where a file of the scene is found from the folder of the XML."""
         whole = (self.meshes / name).resolve()
         return (whole.relative_to(self.folder) if whole.is_relative_to(self.folder) else whole).as_posix()
+
+
+def _warn_of_media(definition):
+    """A SceneWarning for what stands in coloured glass: castray sees it, Mitsuba has to be told."""
+    media = definition.media
+    if media is None:
+        return
+    said = "stands in a filled shape, which Mitsuba only knows if it is told (a medium"
+    if media.camera:
+        warnings.warn(f"the sensor {said} in the sensor)", SceneWarning, stacklevel=4)
+    for surface, front, back in zip(definition.surfaces, media.front, media.back, strict=True):
+        if (front if surface.shape.turned > 0 else back) > 0:
+            warnings.warn(f"{surface.shape.name} {said} named exterior)", SceneWarning, stacklevel=4)
+
+
+def _within_one(table):
+    """A medium whose sigma_t, if it has colours, is at most 1, as Mitsuba wants it; scale holds the rest.
+
+    Divided by a power of two, so that the product is the same number."""
+    sigma_t = table.get("sigma_t", 1.0)
+    sigma_t = np.array(sigma_t["value"] if isinstance(sigma_t, dict) else sigma_t, float)
+    if sigma_t.ndim == 0 or sigma_t.max() <= 1.0:
+        return table
+    power = 2.0 ** np.ceil(np.log2(sigma_t.max()))
+    return {**table, "sigma_t": sigma_t / power, "scale": power * table.get("scale", 1.0)}
 
 
 def _transform(parent, value):

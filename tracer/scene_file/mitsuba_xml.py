@@ -15,14 +15,17 @@ from tracer.scene_file.xml_tree import DEEPEST, Element, parse
 from tracer.scene_file.xml_values import VALUES, steps
 from tracer.settings import TracerError
 
-OBJECTS = ("shape", "bsdf", "emitter", "sensor", "texture")
+OBJECTS = ("shape", "bsdf", "emitter", "sensor", "texture", "medium")
+_SHARED = ("bsdf", "texture", "medium")  # what a <ref> may mean
 _LONGEST = 4096  # characters of a parameter: parameters made of parameters would grow without bound
 _PARAMETER = re.compile(r"\$([A-Za-z_]\w*)?")
 
-# What a film or sensor says about files and clipping: nothing that castray draws depends on it.
+# What a film or sensor says about files and clipping, and a medium about its sampling: nothing that castray
+# draws depends on it.
 _HARMLESS = {
     "film": {"file_format", "pixel_format", "component_format", "banner", "sample_border"},
     "sensor": {"near_clip", "far_clip"},
+    "medium": {"sample_emitters", "has_spectral_extinction"},
 }
 
 
@@ -107,7 +110,7 @@ class Translation:
             )
             if place == "type":
                 raise TracerError(f"{child.where}: id 'type' is a word of its own; choose another id")
-            if child.tag == "texture":  # stands where it is referred to
+            if child.tag in ("texture", "medium"):  # stands where it is referred to
                 continue
             scene[place] = self._object(child, place, ())
             self._check_family(child, scene[place], place)
@@ -157,10 +160,12 @@ class Translation:
             return word, made
         if tag == "ref":
             return self._reference(child, element, table, place, above)
-        if tag in ("bsdf", "emitter", "film", "texture"):
+        if tag == "phase" and element.tag == "medium":  # what it says is for light that is scattered
+            return None
+        if tag in ("bsdf", "emitter", "film", "texture", "medium"):
             word = _word(child, element, table)
             return word, self._object(child, f"{place}.{word}", above)
-        raise _unknown(child, (*VALUES, "transform", "ref", "bsdf", "emitter", "film", "texture"))
+        raise _unknown(child, (*VALUES, "transform", "ref", "bsdf", "emitter", "film", "texture", "medium"))
 
     def _note_axes(self, transform, made):
         for element, step in zip(transform.children, made, strict=True):
@@ -179,12 +184,12 @@ class Translation:
             hint = near(name, self._by_id)
             known = listed(self._by_id) or "none"
             raise TracerError(f"{child.where}: <ref>: no object has the id {name!r}; {hint}known: {known}")
-        if target.tag not in ("bsdf", "texture"):
-            raise TracerError(f"{child.where}: <ref>: {name!r} is a {target.tag}; known: bsdf, texture")
+        if target.tag not in _SHARED:
+            raise TracerError(f"{child.where}: <ref>: {name!r} is a {target.tag}; known: {listed(_SHARED)}")
         if name in above:
             raise TracerError(f"{child.where}: <ref>: {name!r} is part of itself")
         word = _word(target._replace(attributes={**target.attributes, **child.attributes}), element, table)
-        if element.tag == "shape" and any(target is top for top in self._root.children):
+        if element.tag == "shape" and word == "bsdf" and any(target is top for top in self._root.children):
             return word, name
         return word, self._object(target, f"{place}.{word}", (*above, name))
 
@@ -230,7 +235,7 @@ def _check_root(root):
 
 def _word(child, element, table):
     """The word under which an object stands in the table of the one around it."""
-    if child.tag == "texture":
+    if child.tag in ("texture", "medium"):
         return child.get("name")
     if element.tag == "bsdf" and child.tag == "bsdf":  # a material of two may have one for each side
         return _free("bsdf", table, ())

@@ -57,6 +57,15 @@ class Cube:
         faces = np.concatenate((start + [[0, 1, 2]], start + [[0, 2, 3]]))
         return vertices.reshape(-1, 3), faces
 
+    @property
+    def turned(self):
+        """1: its normals point out of what it holds; -1: into it."""
+        return -1 if self.flip_normals else 1
+
+    def holds(self, p):
+        """Whether points (3, N) lie inside, (N,)."""
+        return (np.abs(transform.points(np.linalg.inv(self.to_world), p)) < 1.0).all(axis=0)
+
     def uv(self, p, face):
         """Where on its face, (2, N) from 0 to 1."""
         local = transform.points(np.linalg.inv(self.to_world), p)

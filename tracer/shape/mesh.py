@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.frame import dot, normalize
 from tracer.settings import TracerError
-from tracer.shape import bvh, start
+from tracer.shape import bvh, inside, start
 
 # Lanes times triangles in flight: small enough to stay in cache.
 _CHUNK = 1 << 15
@@ -66,6 +66,18 @@ class Mesh:
     def triangles(self):
         """The mesh itself."""
         return self.vertices, self.faces
+
+    @property
+    def turned(self):
+        """1: its normals point out of what it holds; -1: into it; 0: it is open and holds nothing."""
+        if inside.open_edges(self.vertices, self.faces):
+            return 0
+        outwards = inside.volume(self.vertices, self.faces) > 0.0
+        return 1 if outwards != self.flip_normals else -1
+
+    def holds(self, p):
+        """Whether points (3, N) lie inside, (N,)."""
+        return np.abs(inside.winding(self.vertices, self.faces, p)) > 0.5
 
     def uv(self, p, face):
         """Barycentric coordinates of the second and third vertex, (2, N)."""

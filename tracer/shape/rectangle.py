@@ -17,6 +17,7 @@ class Rectangle:
     flip_normals: bool = False
 
     primitives = 1
+    turned = 0  # it holds nothing
 
     def __post_init__(self):
         transform.check_invertible(self.to_world, self.name)

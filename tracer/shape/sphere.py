@@ -33,6 +33,15 @@ class Sphere:
         """4 pi r^2, (1,)."""
         return np.array([4.0 * np.pi * self.radius**2])
 
+    @property
+    def turned(self):
+        """1: its normals point out of what it holds; -1: into it."""
+        return -1 if self.flip_normals else 1
+
+    def holds(self, p):
+        """Whether points (3, N) lie inside, (N,)."""
+        return np.linalg.norm(p - self.center[:, None], axis=0) < self.radius
+
     def triangles(self):
         """A globe of quads cut in two."""
         theta = np.linspace(0.0, np.pi, _RINGS + 1)

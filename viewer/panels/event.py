@@ -16,13 +16,13 @@ TEMPLATE = """
   </div>
 </dl>
 """
-COLOURED = ("Le", "f", "beta", "beta_before", "contribution", "radiance", "F")
+COLOURED = ("Le", "f", "transmittance", "beta", "beta_before", "contribution", "radiance", "F")
 
 
 def show(session, say):
     """One row for each field that means something here; labels and units are the schema's own."""
     kind, values = session.event.kind, session.event.values
-    fields = [field for field in kind.fields if applies(values[field.name])]
+    fields = [field for field in kind.fields if applies(field, values[field.name])]
     return {"rows": [_row(kind, field, values[field.name], session.scene, say) for field in fields]}
 
 
