@@ -9,6 +9,9 @@ evaluate it.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
 
 from tracer import derived
 
@@ -41,16 +44,34 @@ class Field:
         return self.derive is None
 
 
+class Sparse(NamedTuple):
+    """A column that says something of few lanes only; whoever reads it sees it whole."""
+
+    lanes: np.ndarray  # (K,) which
+    values: np.ndarray  # (..., K)
+    size: int  # N
+    otherwise: float  # what it is elsewhere
+
+    def whole(self):
+        """The column (..., N)."""
+        column = np.full((*self.values.shape[:-1], self.size), self.otherwise, self.values.dtype)
+        column[..., self.lanes] = self.values
+        return column
+
+
 class Event:
     """What one stage of the loop did: columns of one kind, one entry per path that took part.
 
     lane: (N,) places in the wave. depth: (N,). columns: name -> (..., N) array. Never written to again.
     """
 
-    __slots__ = ("columns", "depth", "kind", "lane")
-
     def __init__(self, kind, lane, depth, columns):
-        self.kind, self.lane, self.depth, self.columns = kind, lane, depth, columns
+        self.kind, self.lane, self.depth, self._given = kind, lane, depth, columns
+
+    @cached_property
+    def columns(self):
+        """name -> (..., N) array."""
+        return {name: c.whole() if isinstance(c, Sparse) else c for name, c in self._given.items()}
 
 
 @dataclass(frozen=True)

@@ -220,18 +220,19 @@ class Scene:
         """Where a ray that leaves a hit along wi (3, N) starts, (3, N)."""
         return leave(hit.p, hit.ng, hit.bound, wi)
 
-    def emission(self, hit, vertex):
-        """Radiance (3, N) that each hit surface sends along wo, and the density with which light sampling
-        from the vertex (3, N) where the ray came from would have found it, (N,) in sr^-1."""
-        Le, pdf = np.zeros_like(hit.p), np.zeros_like(hit.t)
-        lanes = np.flatnonzero((hit.light >= 0) & hit.front)
-        if lanes.size:
-            area = self.lights.area
-            Le[:, lanes] = area.radiance.take(hit.light[lanes], axis=1)
-            pdf[lanes] = area.pdf(
-                hit.primitive[lanes], *(v.take(lanes, axis=1) for v in (vertex, hit.p, hit.ng))
-            )
-        return Le, pdf
+    def shining(self, hit):
+        """Which of the hits are on the bright side of a lamp: their places (K,)."""
+        return np.flatnonzero((hit.light >= 0) & hit.front)
+
+    def emission(self, hit, vertex, lit):
+        """Radiance (3, K) that the hits at places `lit` (K,), all on lamps, send along wo, and the density with
+        which light sampling from the vertices (3, N) where the rays came from would have found it, (K,) in
+        sr^-1."""
+        if not lit.size:
+            return hit.p[:, lit], hit.t[lit]
+        area = self.lights.area
+        Le = area.radiance.take(hit.light.take(lit), axis=1)
+        return Le, area.pdf(hit.primitive.take(lit), *(v.take(lit, axis=1) for v in (vertex, hit.p, hit.ng)))
 
     def environment(self, d):
         """Radiance (3, N) that comes from outside the scene against d (3, N), and the density (N,) in sr^-1

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES
+from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES, Sparse
 from tracer.frame import cos_theta, dot
 from tracer.settings import TracerError
 
@@ -32,8 +32,11 @@ def refuse_unmeetable(scene, who):
         )
 
 
-def hit_event(paths, hit, **light):
-    """The HIT of paths; light: Le, pdf_light, w and contribution."""
+def hit_event(paths, hit, lit, Le, pdf_light, w, contribution):
+    """The HIT of paths; lit: places (K,) of those on lamps, for which Le, pdf_light, w and contribution are."""
+    light = {"Le": Le, "pdf_light": pdf_light, "w": w, "contribution": contribution}
+    unlit = {"w": 1.0}
+    light = {name: Sparse(lit, few, hit.t.size, unlit.get(name, 0.0)) for name, few in light.items()}
     if paths.transmittance is not None:
         light["transmittance"] = paths.transmittance
     return HIT(
@@ -87,12 +90,7 @@ def add_light(scene, wave, paths, hit, direct, w):
     through = {}
     if left is not None:
         arriving, through = arriving * left, {"transmittance": left}
-    bright = np.flatnonzero((arriving != 0.0).any(axis=0))
-    visible = np.zeros(w.shape, bool)
-    if bright.size:
-        of_wave = bright if isinstance(lanes, slice) else lanes[bright]
-        visible[bright] = wave.steps.visibility(scene, hit.take(of_wave), light.take(bright))
-        wave.rays += bright.size
+    visible = _seen(scene, wave, hit, lanes, light, any_channel(arriving))
     contribution = arriving * visible
     yield LIGHT(
         paths.lane[lanes],
@@ -117,11 +115,27 @@ def add_light(scene, wave, paths, hit, direct, w):
         contribution=contribution,
         **through,
     )
-    if isinstance(lanes, slice):
-        return paths._replace(L=paths.L + contribution)
-    L = paths.L.copy()
-    L[:, lanes] += contribution
-    return paths._replace(L=L)
+    return paths.gain(contribution, lanes)
+
+
+def _seen(scene, wave, hit, lanes, light, bright):
+    """Whether each light sample is seen, (N,); asked only where `bright` (N,): elsewhere nothing arrives."""
+    rays = int(np.count_nonzero(bright))
+    wave.rays += rays
+    if not rays:
+        return bright
+    if 2 * rays > bright.size and isinstance(lanes, slice):  # to pick them out costs more than to ask for all
+        return wave.steps.visibility(scene, hit, light) & bright
+    asked = np.flatnonzero(bright)
+    of_wave = asked if isinstance(lanes, slice) else lanes[asked]
+    visible = np.zeros(bright.shape, bool)
+    visible[asked] = wave.steps.visibility(scene, hit.take(of_wave), light.take(asked))
+    return visible
+
+
+def any_channel(colour):
+    """Whether any channel of colours (3, N) is not 0, (N,)."""
+    return (colour[0] != 0.0) | (colour[1] != 0.0) | (colour[2] != 0.0)
 
 
 def sides_agree(hit, wi):
@@ -158,13 +172,14 @@ def go_on(scene, wave, paths, hit, frame, wo):
     if scene.has_smooth_normals:
         sample = sample._replace(f=sample.f * sides_agree(hit, wi))
     cos = np.abs(cos_theta(sample.wi))
-    nowhere = ~((sample.pdf > 0.0) & (sample.f > 0.0).any(axis=0))
+    nowhere = ~((sample.pdf > 0.0) & any_channel(sample.f))
     if paths.medium is not None:
-        nowhere |= ~(paths.beta > 0.0).any(axis=0)  # nothing got through to here
+        nowhere |= ~any_channel(paths.beta)  # nothing got through to here
     paths, hit, wi, sample, cos, u = yield from wave.stop(paths, nowhere, "absorbed", hit, wi, sample, cos, u)
     beta = steps.throughput(paths.beta, sample, cos)
     yield bounce_event(paths, sample, wi, cos, u, beta)
-    paths = paths._replace(beta=beta, pdf_bsdf=np.where(sample.delta, np.inf, sample.pdf).astype(beta.dtype))
+    pdf = np.where(sample.delta, np.inf, sample.pdf).astype(beta.dtype) if sample.delta.any() else sample.pdf
+    paths = paths._replace(beta=beta, pdf_bsdf=pdf)
     q = steps.survival(settings, beta, paths.depth)
     played = np.flatnonzero(q < 1.0)
     if played.size:
@@ -177,17 +192,19 @@ def go_on(scene, wave, paths, hit, frame, wo):
 
 def _play(wave, paths, hit, wi, q, played):
     """Russian roulette for the lanes `played`; yield its events, return what survives."""
-    at_stake = paths.take(played)
+    everyone = played.size == q.size
+    at_stake = paths if everyone else paths.take(played)
     u = wave.random(at_stake.pixel, at_stake.sample, at_stake.depth, "roulette")[0]
-    survived, beta = wave.steps.roulette(at_stake.beta, q[played], u)
-    yield ROULETTE(at_stake.lane, at_stake.depth, probability=q[played], u=u, survived=survived, beta=beta)
-    after = paths.beta.copy()
-    after[:, played] = beta
+    q = q if everyone else q[played]
+    survived, beta = wave.steps.roulette(at_stake.beta, q, u)
+    yield ROULETTE(at_stake.lane, at_stake.depth, probability=q, u=u, survived=survived, beta=beta)
+    alive, after = survived, beta
+    if not everyone:
+        after, alive = paths.beta.copy(), np.ones(paths.lane.shape, bool)
+        after[:, played], alive[played] = beta, survived
     paths = paths._replace(beta=after)
     if survived.all():
         return paths, hit, wi
-    yield wave.end(at_stake.take(np.flatnonzero(~survived)), "roulette")
-    alive = np.ones(q.shape, bool)
-    alive[played] = survived
+    yield wave.end(at_stake, np.flatnonzero(~survived), "roulette")
     lanes = np.flatnonzero(alive)
     return paths.take(lanes), hit.take(lanes), wi.take(lanes, axis=1)

@@ -56,7 +56,8 @@ def transmittance(scene, medium, distance):
 
 def light_term(beta, f, cos, light, w):
     """beta f cos Le w / pdf, (3, N), for what is visible; 0 where the density is 0."""
-    return beta * f * light.Le * np.where(light.pdf > 0.0, cos * w / light.pdf, 0.0)
+    safe = np.maximum(light.pdf, np.finfo(light.pdf.dtype).tiny)
+    return beta * f * light.Le * (cos * w / safe * (light.pdf > 0.0))
 
 
 def bounce(scene, hit, wo, u):
@@ -66,7 +67,9 @@ def bounce(scene, hit, wo, u):
 
 def throughput(beta, sample, cos):
     """beta f cos / pdf, (3, N); at a Dirac lobe the cosine cancels and it is beta f / pdf."""
-    return beta * sample.f * (np.where(sample.delta, 1.0, cos).astype(cos.dtype) / sample.pdf)
+    if sample.delta.any():
+        cos = np.where(sample.delta, cos.dtype.type(1.0), cos)
+    return beta * sample.f * (cos / sample.pdf)
 
 
 def survival(settings, beta, depth):
@@ -75,8 +78,11 @@ def survival(settings, beta, depth):
         return np.ones_like(beta[0])
     if settings.roulette != "auto":
         return np.full_like(beta[0], float(settings.roulette))
+    early = depth < AUTO_DEPTH
+    if early.all():
+        return np.ones_like(beta[0])
     brightest = np.maximum(np.maximum(beta[0], beta[1]), beta[2])
-    return np.where(depth < AUTO_DEPTH, 1.0, np.minimum(brightest, AUTO_MOST)).astype(beta.dtype)
+    return np.maximum(np.minimum(brightest, beta.dtype.type(AUTO_MOST)), early)
 
 
 def roulette(beta, probability, u):

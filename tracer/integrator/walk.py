@@ -17,11 +17,12 @@ def walk(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths, "bsdf")
 
         # Le: the surface itself shines
-        Le, pdf_light = scene.emission(hit, paths.vertex)
-        w = wave.steps.emission_weight(settings, "bsdf", paths.pdf_bsdf, pdf_light)
-        contribution = paths.beta * Le * w
-        paths = paths._replace(L=paths.L + contribution)
-        yield hit_event(paths, hit, Le=Le, pdf_light=pdf_light, w=w, contribution=contribution)
+        lit = scene.shining(hit)
+        Le, pdf_light = scene.emission(hit, paths.vertex, lit)
+        w = wave.steps.emission_weight(settings, "bsdf", paths.pdf_bsdf[lit], pdf_light)
+        contribution = paths.beta[:, lit] * Le * w
+        paths = paths.gain(contribution, lit)
+        yield hit_event(paths, hit, lit, Le=Le, pdf_light=pdf_light, w=w, contribution=contribution)
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)

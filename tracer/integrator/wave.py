@@ -33,6 +33,17 @@ class Paths(NamedTuple):
         """The paths of some lanes."""
         return Paths(*(None if column is None else column.take(lanes, axis=-1) for column in self))
 
+    def gain(self, contribution, lanes=slice(None)):
+        """The paths with radiance (3, K) added to those at places `lanes`, all of them unless said."""
+        if isinstance(lanes, slice):
+            return self._replace(L=self.L + contribution)
+        if not lanes.size:
+            return self
+        L = self.L.copy()
+        for channel, more in zip(L, contribution, strict=True):
+            channel[lanes] += more
+        return self._replace(L=L)
+
 
 class Wave:
     """Pixels and samples to trace together, and the radiance they bring back.
@@ -71,7 +82,7 @@ class Wave:
         if scene.media is not None:
             paths = paths._replace(medium=np.full(n, scene.media.camera, np.int32))
         if self.settings.max_depth == 0:
-            yield self.end(paths, "max_depth")
+            yield self.end(paths, lane, "max_depth")
             return paths.take(np.empty(0, np.intp))
         return paths
 
@@ -82,55 +93,57 @@ class Wave:
         self.rays += t.size
         met = primitive >= 0
         if not met.all():
-            lost = paths.take(np.flatnonzero(~met))
-            lost, event = self._escape(scene, lost, strategy)
-            yield event
-            yield self.end(lost, "escaped")
+            yield from self._escape(scene, paths, np.flatnonzero(~met), strategy)
             lanes = np.flatnonzero(met)
-            paths, t, primitive = paths.take(lanes), t[lanes], primitive[lanes]
+            paths, t, primitive = paths.take(lanes), t.take(lanes), primitive.take(lanes)
         if paths.medium is not None:
             left = self.steps.transmittance(scene, paths.medium, t)
             paths = paths._replace(beta=paths.beta * left, transmittance=left)
         return paths, scene.hit(paths.o, paths.d, t, primitive)
 
-    def _escape(self, scene, paths, strategy):
-        """Paths that leave the scene, with the environment's light, and the event of it."""
-        w = pdf = np.zeros_like(paths.pdf_bsdf)
-        Le = contribution = np.zeros_like(paths.beta)
-        around = scene.environment(paths.d)
+    def _escape(self, scene, paths, lanes, strategy):
+        """Yield the events of those paths (their places: lanes) that leave the scene, with the environment's
+        light, and of their end."""
+        lane, depth, d, L = (column.take(lanes, axis=-1) for column in (paths.lane, paths.depth, paths.d, paths.L))
+        w = pdf = np.zeros(lane.shape, L.dtype)
+        Le = contribution = np.zeros_like(L)
+        around = scene.environment(d)
         if around is not None:
             Le, pdf = around
-            w = self.steps.emission_weight(self.settings, strategy, paths.pdf_bsdf, pdf)
-            contribution = paths.beta * Le * w
-            paths = paths._replace(L=paths.L + contribution)
-        event = ESCAPE(
-            paths.lane, paths.depth, d=paths.d, Le=Le, pdf_light=pdf, w=w, contribution=contribution
-        )
-        return paths, event
+            w = self.steps.emission_weight(self.settings, strategy, paths.pdf_bsdf.take(lanes), pdf)
+            contribution = paths.beta.take(lanes, axis=1) * Le * w
+            L = L + contribution
+        yield ESCAPE(lane, depth, d=d, Le=Le, pdf_light=pdf, w=w, contribution=contribution)
+        yield self._end(lane, depth, L, "escaped")
 
     def stop(self, paths, over, reason, *columns):
         """Yield the end of the paths that are over, (N,) bool; return the others, and their columns."""
         if over.any():
-            yield self.end(paths.take(np.flatnonzero(over)), reason)
+            yield self.end(paths, np.flatnonzero(over), reason)
             lanes = np.flatnonzero(~over)
             paths = paths.take(lanes)
             columns = [_take(column, lanes) for column in columns]
         return paths, *columns
 
-    def end(self, paths, reason):
-        """Paths that are over leave their radiance; the event of their end.
+    def end(self, paths, lanes, reason):
+        """The paths at these places are over: the event of their end."""
+        return self._end(paths.lane.take(lanes), paths.depth.take(lanes), paths.L.take(lanes, axis=1), reason)
+
+    def _end(self, lane, depth, L, reason):
+        """Paths leave their radiance L (3, N); the event of their end.
 
         A path whose radiance is not finite counts as 0, is counted, and ends as "invalid".
         """
-        counted = self.steps.film(paths.L)
-        finite = np.isfinite(counted).all(axis=0)
-        reasons = np.full(paths.lane.size, _REASON[reason])
+        counted = self.steps.film(L)
+        finite = np.isfinite(counted[0]) & np.isfinite(counted[1]) & np.isfinite(counted[2])
+        reasons = np.full(lane.size, _REASON[reason])
         if not finite.all():
             self.dropped += int(np.count_nonzero(~finite))
             reasons[~finite] = _REASON["invalid"]
             counted = np.where(finite, counted, 0.0).astype(counted.dtype)
-        self.radiance[:, paths.lane] = counted
-        return END(paths.lane, paths.depth, reason=reasons, radiance=counted)
+        for channel, of_paths in zip(self.radiance, counted, strict=True):
+            channel[lane] = of_paths
+        return END(lane, depth, reason=reasons, radiance=counted)
 
 
 def _take(column, lanes):
