@@ -117,7 +117,7 @@ class Scene:
         )
         corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
         materials = [self.definition.bsdfs[surface.bsdf] for surface in self.definition.surfaces]
-        self._arrangement = arrange(
+        self.arrangement = arrange(
             self.shapes,
             self.first,
             [material.one_sided and not material.see_through for material in materials],
@@ -161,7 +161,7 @@ class Scene:
     def _closest(self, rays):
         t = np.full(rays.source.shape, np.inf, self.dtype)
         primitive = np.full(rays.source.shape, -1, np.int32)
-        for kernel in self._arrangement.closest:
+        for kernel in self.arrangement.closest:
             t_k, met = kernel.closest(rays, t)
             nearer = t_k < t
             if callable(met):
@@ -249,7 +249,7 @@ class Scene:
             hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
         blocked = np.zeros(distance.shape, bool)
-        for blocks in self._arrangement.blocking:
+        for blocks in self.arrangement.blocking:
             blocked |= blocks(rays, distance)
         return blocked
 

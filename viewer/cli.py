@@ -11,6 +11,7 @@ from typing import Annotated
 from cyclopts import App, CycloptsError, Parameter
 
 import tracer
+from tracer.engine.needs import needs
 from tracer.picture import check_path
 from tracer.settings import TracerError
 from viewer.bench import bench
@@ -46,6 +47,7 @@ def render(
     workers: Annotated[int | None, Whole] = None,
     until_error: float | None = None,
     adaptive: str = "off",
+    explain: Annotated[bool, Parameter(negative=())] = False,
     json: Json = False,
 ):
     """Render a scene to a picture (.exr and .npy keep the linear numbers, .png is for looking at).
@@ -66,6 +68,8 @@ def render(
     adaptive
         mse or relmse: measure with 16 samples a pixel, then spend the rest of --spp, on average, where that
         error is.
+    explain
+        Say what the scene needs, what is skipped, and why.
     """
     if engine not in ("auto", "numpy"):
         raise TracerError(f"engine: {engine!r} is not known; choose one of auto, numpy")
@@ -81,12 +85,12 @@ def render(
         workers = workers or os.cpu_count() or 1
         picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
     tracer.write(picture, path, scene=str(scene))
-    _report(loaded, picture, path, json)
+    _report(loaded, picture, path, json, list(needs(loaded, picture.settings)) if explain else ())
     return 0 if picture.complete else 130
 
 
-def _report(scene, picture, path, as_json):
-    """What was rendered, as one JSON document or one line."""
+def _report(scene, picture, path, as_json, features):
+    """What was rendered, as one JSON document or one line; features: what it needed, if that was asked."""
     height, width = picture.samples.shape
     settings = picture.settings
     if as_json:
@@ -109,8 +113,13 @@ def _report(scene, picture, path, as_json):
                 "settings": settings.as_dict(),
                 "out": str(path),
             }
+            | ({"explain": [need._asdict() for need in features]} if features else {})
         )
         return
+    if features:
+        from viewer.report import print_needs
+
+        print_needs(features)
     rate = picture.paths / max(picture.seconds, 1e-9)
     print(
         f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"

@@ -25,6 +25,14 @@ def print_pixel(record, scene, console=None):
     _print_samples(record, chosen, console)
 
 
+def print_needs(features, console=None):
+    """What a picture needs of the tracer and what is skipped, a line each."""
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    for need in features:
+        table.add_row("on" if need.on else "off", need.name, need.why, style="" if need.on else "dim")
+    (console or Console(highlight=False)).print(table)
+
+
 def _print_path(path, scene, say, console):
     console.print(Text(f"sample {path.sample}, event by event", style="bold"))
     explained = set()

@@ -72,7 +72,7 @@ def test_half_a_million_segments_stay_in_a_closed_room_s08(kind, place, precisio
 def test_without_knowing_where_a_ray_starts_it_would_leave(kind, tmp_path):
     """The broken twin: kernels that are not told the faces' corners cannot place a start at an edge."""
     scene = room(kind, FAR, tmp_path).at(SETTINGS)
-    for kernel in scene._arrangement.closest:
+    for kernel in scene.arrangement.closest:
         kernel.corners = None
     assert ends(scene, SETTINGS) != {"max_depth": 64 * 64 * 4}
 

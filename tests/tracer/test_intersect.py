@@ -174,7 +174,7 @@ def test_no_ray_falls_between_two_rectangles_that_share_an_edge(suite_seed, shif
     d = (d / np.linalg.norm(d, axis=0)).astype(dtype)
     _, primitive = quiet(scene.intersect, o, d, np.full(n, -1))
     assert (primitive >= 0).all()
-    for kernel in scene._arrangement.closest:  # the broken twin: rectangles that end exactly at their edge
+    for kernel in scene.arrangement.closest:  # the broken twin: rectangles that end exactly at their edge
         kernel.limits = [dtype(1.0)] * 2
     _, primitive = quiet(scene.intersect, o, d, np.full(n, -1))
     assert not (primitive >= 0).all()

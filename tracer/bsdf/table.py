@@ -20,6 +20,7 @@ class BsdfTable:
         kinds = list(dict.fromkeys(m.kind for m in materials))
         kind = [kinds.index(m.kind) for m in materials]
         self._kind_of = np.array(kind, np.int32)
+        self._single = [kind.count(number) == 1 for number in range(len(kinds))]
         self._row_of = np.array([kind[:i].count(k) for i, k in enumerate(kind)], np.int32)
         same = [[m for m in materials if m.kind == k] for k in kinds]
         self._kinds = [first.beside(others).astype(dtype) for first, *others in same]
@@ -28,6 +29,7 @@ class BsdfTable:
         self._black_of = np.array([not np.any(m.albedo() > 0.0) for m in materials], bool)
         self.any_delta = bool(self._delta_of.any())
         self.all_delta = bool(self._delta_of.all())
+        self._last = None, None
         self._plain = bool(self._one_sided_of.all() and not self._black_of.any())
 
     def is_delta(self, material):
@@ -82,9 +84,13 @@ class BsdfTable:
     def _gathered(self, number, material):
         """One kind with a parameter column per lane; a single material is broadcast instead."""
         kind = self._kinds[number]
-        if np.count_nonzero(self._kind_of == number) == 1:
+        if self._single[number]:
             return kind
-        return kind.take(self._row_of.take(material))
+        if len(self._kinds) > 1:
+            return kind.take(self._row_of.take(material))
+        if self._last[0] is not material:  # eval, pdf and sample of one vertex ask for the same
+            self._last = material, kind.take(self._row_of.take(material))
+        return self._last[1]
 
 
 def _scatter(where, parts, n):

@@ -8,7 +8,7 @@ Dirac lobe.
 """
 
 from tracer.frame import Frame
-from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights
+from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights, stop_counted
 
 
 def direct(scene, settings, wave):
@@ -38,6 +38,7 @@ def direct(scene, settings, wave):
         if sampled:
             w = steps.light_weight(settings, "light", sampled.light.pdf, sampled.pdf_bsdf)
             paths = yield from add_light(scene, wave, paths, hit, sampled, w)
+        paths, hit, wo, frame = yield from stop_counted(scene, wave, paths, hit, wo, frame)
 
         # Indirect light: go where the BSDF chooses
         paths = yield from go_on(scene, wave, paths, hit, frame, wo)

@@ -7,7 +7,14 @@ mostly by the technique that is better at it. settings.strategy keeps only one o
 """
 
 from tracer.frame import Frame
-from tracer.integrator.stages import add_light, go_on, hit_event, refuse_unmeetable, sample_lights
+from tracer.integrator.stages import (
+    add_light,
+    go_on,
+    hit_event,
+    refuse_unmeetable,
+    sample_lights,
+    stop_counted,
+)
 
 
 def path(scene, settings, wave):
@@ -40,6 +47,8 @@ def path(scene, settings, wave):
             if sampled:
                 w = steps.light_weight(settings, strategy, sampled.light.pdf, sampled.pdf_bsdf)
                 paths = yield from add_light(scene, wave, paths, hit, sampled, w)
+        if strategy == "light":
+            paths, hit, wo, frame = yield from stop_counted(scene, wave, paths, hit, wo, frame)
 
         # Indirect light: go where the BSDF chooses
         paths = yield from go_on(scene, wave, paths, hit, frame, wo)

@@ -6,6 +6,7 @@ import numpy as np
 
 from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES, Sparse
 from tracer.frame import cos_theta, dot
+from tracer.integrator.steps import RIGHT
 from tracer.settings import TracerError
 
 _DELTA = TECHNIQUES.index("delta")
@@ -116,6 +117,15 @@ def add_light(scene, wave, paths, hit, direct, w):
         **through,
     )
     return paths.gain(contribution, lanes)
+
+
+def stop_counted(scene, wave, paths, *columns):
+    """Yield the end of the paths whose next vertex could add nothing but its own emission, where light samples
+    count that already; return the others, and their columns."""
+    if scene.bsdf.any_delta or wave.steps.emission_weight is not RIGHT.emission_weight:
+        return paths, *columns
+    last = paths.depth + 1 >= wave.settings.last_depth
+    return (yield from wave.stop(paths, last, "max_depth", *columns))
 
 
 def _seen(scene, wave, hit, lanes, light, bright):

@@ -104,7 +104,9 @@ class Wave:
     def _escape(self, scene, paths, lanes, strategy):
         """Yield the events of those paths (their places: lanes) that leave the scene, with the environment's
         light, and of their end."""
-        lane, depth, d, L = (column.take(lanes, axis=-1) for column in (paths.lane, paths.depth, paths.d, paths.L))
+        lane, depth, d, L = (
+            column.take(lanes, axis=-1) for column in (paths.lane, paths.depth, paths.d, paths.L)
+        )
         w = pdf = np.zeros(lane.shape, L.dtype)
         Le = contribution = np.zeros_like(L)
         around = scene.environment(d)

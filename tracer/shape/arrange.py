@@ -23,6 +23,7 @@ class Arrangement(NamedTuple):
     closest: list  # for the nearest hit
     blocking: list  # for shadows: blocks(rays, distance) -> (N,) bool
     walls: tuple  # numbers of the shapes that are walls of one box
+    walls_never_block: bool  # what lies in it
     harmless: tuple  # numbers of the other shapes that never block
 
 
@@ -43,13 +44,14 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
     closest = [kernels[k] for k in order]
     harmless = () if elsewhere else tuple(_harmless(shapes, shining, walls))
     blocking = [partial(_blocks, kernels[k]) for k in order if k not in harmless]
+    never = False
     if walls:
         box = room.RoomKernel(sides, shapes, kernels, extent, dtype)
         lamps = [shape for shape, lit in zip(shapes, shining, strict=True) if lit]
-        box.never_blocks = not elsewhere and all(box.holds(_corners(lamp)) for lamp in lamps)
+        box.never_blocks = never = not elsewhere and all(box.holds(_corners(lamp)) for lamp in lamps)
         closest.insert(sum(bool(shining[k]) for k in order), box)
         blocking.append(box.blocks)
-    return Arrangement(closest, blocking, walls, harmless)
+    return Arrangement(closest, blocking, walls, never, harmless)
 
 
 def _blocks(kernel, rays, distance):
