@@ -225,9 +225,9 @@ class Scene:
         return np.flatnonzero((hit.light >= 0) & hit.front)
 
     def emission(self, hit, vertex, lit):
-        """Radiance (3, K) that the hits at places `lit` (K,), all on lamps, send along wo, and the density with
-        which light sampling from the vertices (3, N) where the rays came from would have found it, (K,) in
-        sr^-1."""
+        """Radiance (3, K) that the hits at places `lit` (K,), all on lamps, send along wo, and the density
+        (K,) in sr^-1 with which light sampling from the vertices (3, N) where the rays came from would have
+        found it."""
         if not lit.size:
             return hit.p[:, lit], hit.t[lit]
         area = self.lights.area

@@ -118,7 +118,8 @@ def test_a_bounce_that_finds_a_lamp_names_the_density_of_the_light_sample(suite_
         same = np.flatnonzero((primitive == light.primitive) & (-dot(light.nq, light.wi) > 0.1))
         hit = scene.hit(o[:, same], light.wi[:, same], t[same], primitive[same])
     assert same.size > 0.3 * facing.size
-    Le, pdf = scene.emission(hit, o[:, same])
+    assert (scene.shining(hit) == np.arange(same.size)).all()
+    Le, pdf = scene.emission(hit, o[:, same], np.arange(same.size))
     assert np.array_equal(Le, light.Le[:, same])
     assert np.allclose(pdf, light.pdf[same], rtol={32: 3e-3, 64: 1e-10}[precision])
 

@@ -34,10 +34,10 @@ def refuse_unmeetable(scene, who):
 
 
 def hit_event(paths, hit, lit, Le, pdf_light, w, contribution):
-    """The HIT of paths; lit: places (K,) of those on lamps, for which Le, pdf_light, w and contribution are."""
-    light = {"Le": Le, "pdf_light": pdf_light, "w": w, "contribution": contribution}
+    """The HIT of paths; Le, pdf_light, w and contribution are of those on lamps only, at places lit (K,)."""
+    of_lit = {"Le": Le, "pdf_light": pdf_light, "w": w, "contribution": contribution}
     unlit = {"w": 1.0}
-    light = {name: Sparse(lit, few, hit.t.size, unlit.get(name, 0.0)) for name, few in light.items()}
+    light = {name: Sparse(lit, few, hit.t.size, unlit.get(name, 0.0)) for name, few in of_lit.items()}
     if paths.transmittance is not None:
         light["transmittance"] = paths.transmittance
     return HIT(
@@ -120,8 +120,8 @@ def add_light(scene, wave, paths, hit, direct, w):
 
 
 def stop_counted(scene, wave, paths, *columns):
-    """Yield the end of the paths whose next vertex could add nothing but its own emission, where light samples
-    count that already; return the others, and their columns."""
+    """Yield the end of the paths whose next vertex could add nothing but its own emission, where light
+    samples count that already; return the others, and their columns."""
     if scene.bsdf.any_delta or wave.steps.emission_weight is not RIGHT.emission_weight:
         return paths, *columns
     last = paths.depth + 1 >= wave.settings.last_depth
