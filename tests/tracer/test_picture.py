@@ -7,7 +7,7 @@ from PIL import Image
 
 import tracer
 from tracer import Settings, TracerError
-from tracer.picture import to_srgb
+from tracer.picture import from_srgb, to_srgb
 
 SIZE = (5, 7, 3)
 
@@ -112,6 +112,12 @@ def bad_files(folder, rgb):
         "scale.pfm": b"PF\n1 1\n0\n" + bytes(12),
         "words.pfm": b"PF\nwide high\n-1\n" + bytes(12),
         "text.txt": b"hello",
+        "empty.hdr": b"",
+        "nonsense.hdr": b"#?RADIANCE",
+        "short.hdr": b"#?RADIANCE\n\n-Y 4 +X 4\n" + bytes(20),
+        "turned.hdr": b"#?RADIANCE\n\n+X 2 -Y 2\n" + bytes(16),
+        "vast.hdr": b"#?RADIANCE\n\n-Y 99999999 +X 99999999\n" + bytes(16),
+        "run.hdr": b"#?RADIANCE\n\n-Y 1 +X 9\n" + bytes((2, 2, 0, 9, 137)),
     }
 
 
@@ -127,3 +133,38 @@ def test_bad_files_are_refused_in_one_line_that_names_them(tmp_path, rgb, capfd)
     with pytest.raises(TracerError, match="no such file"):
         tracer.read(tmp_path / "nowhere.exr")
     assert capfd.readouterr() == ("", "")
+
+
+def hdr(rgbe, packed):
+    """A Radiance picture of (H, W, 4) bytes; packed: each line's components in runs and in pieces."""
+    height, width = rgbe.shape[:2]
+    head = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + f"-Y {height} +X {width}\n".encode()
+    if not packed:
+        return head + rgbe.tobytes()
+    lines = b""
+    for line in rgbe:
+        lines += bytes((2, 2, width >> 8, width & 255))
+        for component in line.T:
+            first, rest = int(component[0]), component[1:]
+            lines += bytes((129, first, rest.size)) + rest.tobytes()
+    return head + lines
+
+
+@pytest.mark.parametrize("packed", [True, False])
+def test_a_radiance_picture_means_mantissa_times_power_of_two(tmp_path, packed):
+    rgbe = np.random.default_rng(3).integers(0, 256, (4, 9, 4)).astype(np.uint8)
+    rgbe[0, 0] = 128, 64, 0, 129  # 128/256 * 2
+    rgbe[1, 1, 3] = 0
+    (tmp_path / "a.hdr").write_bytes(hdr(rgbe, packed))
+    stored = tracer.read(tmp_path / "a.hdr", np.float64)
+    assert stored.rgb.dtype == np.float64 and np.array_equal(stored.rgb[0, 0], [1.0, 0.5, 0.0])
+    assert np.array_equal(stored.rgb[1, 1], np.zeros(3))
+    assert np.array_equal(stored.rgb[2], rgbe[2, :, :3] * 2.0 ** (rgbe[2, :, 3:].astype(float) - 136.0))
+
+
+def test_numbers_in_srgb_are_made_linear_unless_they_are_wanted_raw(tmp_path):
+    codes = np.arange(0, 240, 5, dtype=np.uint8).reshape(4, 4, 3)
+    Image.fromarray(codes).save(tmp_path / "a.png")
+    raw = tracer.read(tmp_path / "a.png", np.float64, raw=True).rgb
+    assert np.array_equal(raw, codes / 255.0)
+    assert np.array_equal(tracer.read(tmp_path / "a.png", np.float64).rgb, from_srgb(raw))

@@ -1,4 +1,4 @@
-"""Pictures from disk: .exr, .npy, .pfm, and what pillow reads, such as .png and .ppm; mistakes explained."""
+"""Pictures from disk: .exr, .hdr, .npy, .pfm, and what pillow reads, such as .png; mistakes explained."""
 
 import contextlib
 import io
@@ -8,25 +8,30 @@ from pathlib import Path
 
 import numpy as np
 
+from tracer.picture.rgbe import decoded
 from tracer.picture.srgb import from_srgb
 from tracer.picture.stored import MARK, PREFIX, StoredPicture
 from tracer.picture.writing import FORMATS
 from tracer.settings import TracerError
 
 
-def read(path):
+def read(path, dtype=np.float32, raw=False):
     """The StoredPicture in a file, linear; its variance and samples where it is an .exr of castray.
 
+    dtype: of the numbers. raw: leave the numbers of files in sRGB as they are, instead of making them linear.
     Raises TracerError naming the file where there is no picture in it.
     """
     path = Path(path)
-    if path.is_dir():
-        raise TracerError(f"{path}: is a folder, not a picture")
-    if not path.exists():
-        raise TracerError(f"{path}: there is no such file")
-    reader = {".exr": _read_exr, ".npy": _read_npy, ".pfm": _read_pfm}.get(path.suffix.lower(), _read_other)
+    readers = {".exr": _read_exr, ".hdr": _read_hdr, ".npy": _read_npy, ".pfm": _read_pfm}
     try:
-        picture = reader(path)
+        if path.is_dir():
+            raise TracerError(f"{path}: is a folder, not a picture")
+        if not path.exists():
+            raise TracerError(f"{path}: there is no such file")
+        if path.suffix.lower() in readers:
+            picture = readers[path.suffix.lower()](path, dtype)
+        else:
+            picture = _read_other(path, dtype, raw)
     except OSError as error:
         raise TracerError(f"{path}: cannot be read: {error.strerror or error}") from None
     if picture.rgb.size == 0:
@@ -34,8 +39,8 @@ def read(path):
     return picture
 
 
-def _linear(values, path):
-    """Values (H, W), (H, W, 1), (H, W, 3) or with alpha as a picture (H, W, 3) float32."""
+def _linear(values, path, dtype):
+    """Values (H, W), (H, W, 1), (H, W, 3) or with alpha as a picture (H, W, 3)."""
     values = np.asarray(values)
     if values.ndim == 2:
         values = values[..., None]
@@ -46,20 +51,28 @@ def _linear(values, path):
     if values.shape[2] == 4:
         values = values[..., :3]
     with np.errstate(over="ignore"):
-        return np.ascontiguousarray(np.broadcast_to(values, (*values.shape[:2], 3)), np.float32)
+        return np.ascontiguousarray(np.broadcast_to(values, (*values.shape[:2], 3)), dtype)
 
 
-def _read_npy(path):
+def _read_npy(path, dtype):
     try:
         values = np.load(path, mmap_mode="r", allow_pickle=False)
     except (ValueError, EOFError, SyntaxError):
         raise TracerError(f"{path}: is not a NumPy array of numbers") from None
     if not isinstance(values, np.ndarray):
         raise TracerError(f"{path}: is not a single NumPy array")
-    return StoredPicture(_linear(values, path))
+    return StoredPicture(_linear(values, path, dtype))
 
 
-def _read_pfm(path):
+def _read_hdr(path, dtype):
+    try:
+        values = decoded(path.read_bytes())
+    except (ValueError, IndexError):
+        raise TracerError(f"{path}: is not a Radiance picture, or holds less than its header says") from None
+    return StoredPicture(_linear(values, path, dtype))
+
+
+def _read_pfm(path, dtype):
     """Portable float map: `PF` or `Pf`, size, a scale whose sign is the byte order, rows from below."""
     words, data = [], path.read_bytes()
     place = 0
@@ -79,11 +92,11 @@ def _read_pfm(path):
     if width < 1 or height < 1 or not np.isfinite(scale) or scale == 0.0 or len(data) - place < 4 * size:
         raise TracerError(f"{path}: holds less than its header says, or its header is wrong")
     values = np.frombuffer(data, "<f4" if scale < 0.0 else ">f4", size, place)
-    return StoredPicture(_linear(values.reshape(height, width, channels)[::-1], path))
+    return StoredPicture(_linear(values.reshape(height, width, channels)[::-1], path, dtype))
 
 
-def _read_other(path):
-    """What pillow knows, 8 or 16 bits, as sRGB."""
+def _read_other(path, dtype, raw):
+    """What pillow knows, 8 or 16 bits, as sRGB unless `raw`."""
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -96,10 +109,10 @@ def _read_other(path):
     except (UnidentifiedImageError, Image.DecompressionBombError, SyntaxError, ValueError):
         known = ", ".join((*FORMATS, ".pfm", ".ppm"))
         raise TracerError(f"{path}: is not a picture that can be read; use {known}") from None
-    return StoredPicture(_linear(from_srgb(values), path), eight_bits=True)
+    return StoredPicture(_linear(values if raw else from_srgb(values), path, dtype), eight_bits=True)
 
 
-def _read_exr(path):
+def _read_exr(path, dtype):
     if path.stat().st_size < 4 or path.open("rb").read(4) != b"\x76\x2f\x31\x01":
         raise TracerError(f"{path}: is not an OpenEXR picture")
     import OpenEXR
@@ -120,9 +133,9 @@ def _read_exr(path):
                 notes[name.removeprefix(PREFIX)] = json.loads(value)
     variance = samples = None
     if MARK in header and {"samples", *(f"variance.{c}" for c in "RGB")} <= channels.keys():
-        variance = _linear(np.stack([channels[f"variance.{c}"] for c in "RGB"], axis=2), path)
+        variance = _linear(np.stack([channels[f"variance.{c}"] for c in "RGB"], axis=2), path, np.float32)
         samples = channels["samples"].astype(np.int64)
-    rgb = _linear(np.stack([channels[name] for name in names], axis=2), path)
+    rgb = _linear(np.stack([channels[name] for name in names], axis=2), path, dtype)
     return StoredPicture(rgb, variance, samples, notes=notes)
 
 

@@ -6,6 +6,7 @@ from tracer.light.constant import Constant
 from tracer.light.directional import Directional
 from tracer.light.envmap import Envmap
 from tracer.light.point import Point
+from tracer.scene_file import picture_file
 from tracer.scene_file.to_world import to_world
 from tracer.scene_file.words import Words, colour, real, shown, triple
 from tracer.settings import TracerError
@@ -75,16 +76,12 @@ def _constant(table):
 
 
 def _envmap(table, folder):
-    from tracer.scene_file.image_file import read
-
     place, filename = table.place, table.take("filename")
-    if not isinstance(filename, str):
-        raise TracerError(f"{place}.filename: {shown(filename)} is not the name of a file")
     matrix = _matrix(table)[:3, :3]
     scale = real(table.take("scale", 1.0), f"{place}.scale", 0.0)
     if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-9):
         raise TracerError(f"{place}.to_world: stretches or moves the sky; only rotations make sense")
-    image = read(folder / filename, f"{place}.filename")
+    image = picture_file.read(filename, f"{place}.filename", folder)
     if image.shape[0] < 3 or image.shape[1] < 2:
         raise TracerError(f"{place}.filename: {filename} has fewer than 2 x 3 pixels")
     bad = np.argwhere(~(np.isfinite(image) & (image >= 0.0)).all(axis=2))
