@@ -6,6 +6,8 @@ g = e cos_t, c - g is computed as -(e-1)(e+1)/(c+g), and e^2 c - g as (e^2-1)((e
 Materials ask for the mean of both polarisations, exact or by Schlick's approximation (Schlick 1994).
 """
 
+from functools import cache
+
 import numpy as np
 
 
@@ -82,13 +84,19 @@ def schlick(cos, head_on):
     return head_on + (1.0 - head_on) * (miss * miss) * (miss * miss) * miss
 
 
+@cache
+def _nodes():
+    """400 nodes and weights of Gauss-Legendre's rule: a second's work, done once."""
+    return np.polynomial.legendre.leggauss(400)
+
+
 def diffuse_average(eta, formula="exact"):
     """Share of diffuse light that a dielectric reflects from outside, 2 integral of F cos dcos, (M,) float64.
 
     From inside it is 1 - (1 - this)/eta^2: as much light gets out along each ray as gets in. Gauss-Legendre
     in t with cos = t^2 (what is not smooth lies at grazing angles); from the denser side, that same rule.
     """
-    t, weight = np.polynomial.legendre.leggauss(400)
+    t, weight = _nodes()
     t, weight = 0.5 * t[:, None] + 0.5, 0.5 * weight[:, None]
     dense = np.maximum(eta, 1.0 / eta).astype(np.float64)
     reflectance, _ = dielectric_mean(t * t, np.broadcast_to(dense, (t.size, dense.size)), formula)
