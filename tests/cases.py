@@ -18,4 +18,7 @@ def loaded(name):
 
 def slow_but(values, *quick):
     """`values` as parameters of a test, all but `quick` ones marked slow."""
-    return [v if v in quick else pytest.param(v, marks=pytest.mark.slow) for v in values]
+    return [
+        v if v in quick else pytest.param(*(v if isinstance(v, tuple) else (v,)), marks=pytest.mark.slow)
+        for v in values
+    ]

@@ -28,6 +28,7 @@ FLOORS = {
     "tracer.camera": 1,
     "tracer.film": 1,
     "tracer.picture": 1,
+    "tracer.texture": 1,
     "tracer.recorder": 1,
     "tracer.light": 2,
     "tracer.material_bench": 2,

@@ -6,7 +6,7 @@ the same paths, and the scene. What does not apply is NaN.
 
 import numpy as np
 
-from tracer.frame import Frame, dot
+from tracer.frame import dot
 
 
 def shape(event, vertex, scene):
@@ -20,8 +20,14 @@ def bsdf(event, vertex, scene):
 
 
 def uv(event, vertex, scene):
-    """Coordinates of a hit on its primitive, (2, N)."""
+    """Coordinates of a hit on its surface, (2, N)."""
     return scene.uv(event["p"], event["primitive"])
+
+
+def albedo(event, vertex, scene):
+    """The colour of the material there, (3, N)."""
+    p, primitive = event["p"], event["primitive"]
+    return scene.bsdf.colour(scene.bsdf_of[primitive], scene.painted(p, primitive))
 
 
 def cos_wo(event, vertex, scene):
@@ -52,9 +58,10 @@ def blocker_distance(event, vertex, scene):
 
 
 def _of_material(name, event, vertex, scene):
-    frame = Frame.around(vertex["n"])
+    frame = scene.frame(*(vertex[column] for column in ("n", "p", "primitive")))
     wo, wi = frame.to_local(vertex["wo"]), frame.to_local(event["wi"])
-    return scene.bsdf.property(scene.bsdf_of[vertex["primitive"]], name, wo, wi)
+    p, primitive = vertex["p"], vertex["primitive"]
+    return scene.bsdf.property(scene.bsdf_of[primitive], name, wo, wi, scene.painted(p, primitive))
 
 
 def eta(event, vertex, scene):

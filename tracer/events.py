@@ -160,7 +160,16 @@ HIT = Kind(
         Field("primitive", "number of the flat face or sphere in the scene", (), "index"),
         Field("shape", "which shape", (), "shape", derive=derived.shape),
         Field("bsdf", "which material", (), "bsdf", derive=derived.bsdf),
-        Field("uv", "coordinates on the primitive", (2,), "real", derive=derived.uv),
+        Field(
+            "uv", "coordinates on the surface, where a texture is looked up", (2,), "real", derive=derived.uv
+        ),
+        Field(
+            "albedo",
+            "colour there: what a diffuse surface or base reflects, metal head on, or glass lets through",
+            (3,),
+            "probability",
+            derive=derived.albedo,
+        ),
         Field("ng", "geometric normal", (3,), "unit vector"),
         Field("n", "shading normal", (3,), "unit vector"),
         Field("wo", "direction back along the path", (3,), "unit vector"),

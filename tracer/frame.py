@@ -56,6 +56,23 @@ class Frame(NamedTuple):
         t = np.stack((b, sign + n[1] * n[1] * a, -n[1]))
         return cls(s, t, n)
 
+    @classmethod
+    def along(cls, n, tangent):
+        """The frame around a unit normal with s as near to a unit tangent (3, N) as it can be; where that is
+        0, or within half a degree of the normal, the frame of `around`."""
+        s = tangent - n * dot(n, tangent)
+        size = length(s)
+        lost = ~(size > 0.01)
+        s = s / np.where(lost, 1.0, size).astype(size.dtype)
+        followed = cls(s, cross(n, s), n)
+        return followed.with_lanes(np.flatnonzero(lost), cls.around) if lost.any() else followed
+
+    def with_lanes(self, lanes, make):
+        """These frames, but with make(n) for the normals of some lanes."""
+        s, t = self.s.copy(), self.t.copy()
+        s[:, lanes], t[:, lanes], _ = make(self.n.take(lanes, axis=1))
+        return Frame(s, t, self.n)
+
     def take(self, lanes):
         """The frames of some lanes."""
         return Frame(*(axis.take(lanes, axis=1) for axis in self))

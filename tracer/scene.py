@@ -6,11 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.bsdf.table import BsdfTable
-from tracer.frame import dot, length
+from tracer.frame import Frame, dot, length
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
 from tracer.shape.arrange import arrange
+from tracer.shape.chart import Charts
 from tracer.shape.rays import Rays, error_bound, leave
 from tracer.shape.sphere import Sphere
 
@@ -36,6 +37,7 @@ class Definition(NamedTuple):
     source: tuple | None = None  # the description it was made from, and the folder of its files
     emitters: tuple = ()  # lights that are no shapes
     media: object = None  # medium.Media of the surfaces, None where nothing is filled
+    textures: dict = {}  # name of a material -> {parameter: texture}
 
 
 class Hit(NamedTuple):
@@ -51,10 +53,11 @@ class Hit(NamedTuple):
     bsdf: np.ndarray  # (N,) number of the material
     light: np.ndarray  # (N,) number of the light, -1 for none
     bound: np.ndarray  # (N,) how far p may be off its surface, along ng
+    texture: np.ndarray | None = None  # (K, 3, N) what textures say there; None where no material has any
 
     def take(self, lanes):
         """The hits of some lanes."""
-        return Hit(*(column.take(lanes, axis=-1) for column in self))
+        return Hit(*(None if column is None else column.take(lanes, axis=-1) for column in self))
 
 
 class Scene:
@@ -75,7 +78,8 @@ class Scene:
         self.bsdf_names = tuple(definition.bsdfs)
         of_shape = np.array([self.bsdf_names.index(s.bsdf) for s in definition.surfaces], np.int32)
         self.bsdf_of = of_shape[self.shape_of]
-        self.bsdf = BsdfTable(tuple(definition.bsdfs.values()), dtype, hemisphere)
+        painted = [definition.textures.get(name, {}) for name in self.bsdf_names]
+        self.bsdf = BsdfTable(tuple(definition.bsdfs.values()), dtype, hemisphere, painted)
         media = definition.media
         self.media = media and media.of_primitives(self.shape_of, dtype)  # None: light loses nothing anywhere
         self._prepare_planes()
@@ -180,8 +184,9 @@ class Scene:
         p, ng, bound = self._on_surface(o + t * d, primitive)
         wo = -d
         n = self._shading_normals(p, ng, wo, primitive) if self._smooth else ng
-        light = self.light_of.take(primitive)
-        return Hit(p, t, primitive, ng, n, wo, dot(ng, wo) > 0.0, self.bsdf_of.take(primitive), light, bound)
+        bsdf, light = self.bsdf_of.take(primitive), self.light_of.take(primitive)
+        texture = self.painted(p, primitive)
+        return Hit(p, t, primitive, ng, n, wo, dot(ng, wo) > 0.0, bsdf, light, bound, texture)
 
     @property
     def has_smooth_normals(self):
@@ -272,15 +277,29 @@ class Scene:
         distance = length(gap)
         return Rays.towards(start, gap / distance, source, target), distance
 
+    def frame(self, n, p, primitive):
+        """The local frames at points (3, N) with shading normals n: the surface's u runs along s where the
+        material can tell, and any frame will do where not."""
+        frame = Frame.around(n)
+        if not self.bsdf.any_anisotropic:
+            return frame
+        lanes = np.flatnonzero(self.bsdf.is_anisotropic(self.bsdf_of.take(primitive)))
+        tangent = self._charts.tangent(p.take(lanes, axis=1), primitive[lanes])
+        return frame.with_lanes(lanes, lambda n: Frame.along(n, tangent))
+
+    def painted(self, p, primitive):
+        """What the textures say at points (3, N), as BsdfTable takes it; None where there are none."""
+        if not self.bsdf.any_textured:
+            return None
+        return self.bsdf.painted(self.bsdf_of.take(primitive), p, primitive, self.uv)
+
     def uv(self, p, primitive):
         """Coordinates (2, N) of points on their primitives."""
-        out = np.zeros((2, p.shape[1]))
-        for k in np.unique(self.shape_of[primitive]):
-            lanes = np.flatnonzero(self.shape_of[primitive] == k)
-            out[:, lanes] = self.shapes[k].uv(
-                p[:, lanes].astype(np.float64), primitive[lanes] - self.first[k]
-            )
-        return out
+        return self._charts.uv(p, primitive)
+
+    @cached_property
+    def _charts(self):
+        return Charts(self.shapes, self.first, self.dtype)
 
     @cached_property
     def has_lights(self):

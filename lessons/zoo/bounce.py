@@ -4,7 +4,6 @@ import numpy as np
 
 from lessons.zoo.bug import Bug
 from tracer import warp
-from tracer.frame import Frame
 from tracer.integrator.steps import bounce, next_ray
 
 MATCHED_PDF = "I1: the density of a bounce is that of the sampler that made it"
@@ -43,7 +42,7 @@ def unchanged(beta, sample, cos):
 
 def local_as_world(scene, hit, wi):
     """The direction's local coordinates are used as if they were the world's."""
-    return next_ray(scene, hit, Frame.around(hit.n).to_local(wi))
+    return next_ray(scene, hit, scene.frame(hit.n, hit.p, hit.primitive).to_local(wi))
 
 
 def from_the_next_hit(scene, hit, wi):

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 import tracer
 from tracer import SceneWarning, Settings, TracerError
+from tracer.scene_file.load import BUILT_IN
 
 pytestmark = pytest.mark.slow
 
@@ -29,6 +30,7 @@ FUZZ = settings(
     derandomize="CASTRAY_FUZZ" not in os.environ,
     database=None,
 )
+COMPASS = str(BUILT_IN / "pictures" / "compass.png")
 ROOM = {
     "sensor": {
         "type": "thinlens",
@@ -39,7 +41,7 @@ ROOM = {
         "film": {"width": 5, "height": 4},
     },
     "glass": {"type": "dielectric", "int_ior": 1.5},
-    "metal": {"type": "roughconductor", "material": "Au", "alpha": 0.2},
+    "metal": {"type": "roughconductor", "material": "Au", "alpha_u": 0.2, "alpha_v": 0.1},
     "lamp": {
         "type": "rectangle",
         "to_world": [{"scale": [1, 2, 1]}, {"rotate": [1, 0, 0], "angle": 90}, {"translate": [0, 1.5, 0]}],
@@ -56,10 +58,29 @@ ROOM = {
         "interior": {"type": "homogeneous", "albedo": 0, "sigma_t": [0.1, 1.0, 5.0], "scale": 1.5},
     },
     "box": {"type": "cube", "to_world": [{"scale": 0.4}, {"translate": [-0.6, 0, 0]}], "bsdf": "metal"},
+    "board": {"type": "checkerboard", "color0": [0.9, 0.1, 0.2], "to_uv": [{"scale": [4, 3, 1]}]},
     "floor": {
         "type": "rectangle",
         "to_world": [{"rotate": [1, 0, 0], "angle": -90}, {"translate": [0, -1, 0]}],
-        "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": 0.5}},
+        "bsdf": {
+            "type": "twosided",
+            "bsdf": {"type": "diffuse", "reflectance": {"type": "ref", "id": "board"}},
+        },
+    },
+    "wall": {
+        "type": "rectangle",
+        "to_world": [{"translate": [0, 0, -1]}],
+        "bsdf": {
+            "type": "plastic",
+            "diffuse_reflectance": {
+                "type": "bitmap",
+                "filename": COMPASS,
+                "filter_type": "nearest",
+                "wrap_mode": "mirror",
+                "raw": True,
+                "to_uv": [{"rotate": [0, 0, 1], "angle": 30}, {"translate": [0.2, 0.1, 0]}],
+            },
+        },
     },
 }
 WORDS = sorted(
@@ -76,7 +97,7 @@ WORDS = sorted(
         "id",
         "value",
         "rgb",
-        "alpha_u",
+        "alpha",
     }
     | {"plastic", "roughdielectric", "roughplastic", "thindielectric", "perspective", "matrix", "k", "eta"}
     | {"interior", "exterior"}
@@ -260,14 +281,15 @@ coordinates = st.one_of(st.floats(-1, 1), st.floats(-1, 1), numbers)
 
 @FUZZ
 @given(
-    st.lists(st.tuples(*[coordinates] * 6), min_size=1, max_size=6),
+    st.lists(st.tuples(*[coordinates] * 8), min_size=1, max_size=6),
     st.lists(st.tuples(*[st.one_of(st.integers(0, 3), st.integers(-2, 7))] * 3), max_size=6),
     st.sampled_from([None, True, False]),
     st.booleans(),
+    st.booleans(),
     likely(1.0),
 )
-def test_a_mesh_of_any_numbers(folder, vertices, faces, flat, with_normals, scale):
-    words = ("x", "y", "z", "nx", "ny", "nz")[: 6 if with_normals else 3]
+def test_a_mesh_of_any_numbers(folder, vertices, faces, flat, with_normals, with_uv, scale):
+    words = (("x", "y", "z", "nx", "ny", "nz") if with_normals else ("x", "y", "z")) + ("u", "v") * with_uv
     head = f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\n"
     head += "".join(f"property double {word}\n" for word in words)
     head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
@@ -278,6 +300,8 @@ def test_a_mesh_of_any_numbers(folder, vertices, faces, flat, with_normals, scal
     room = {**ROOM, "mesh": {"type": "ply", "filename": "any.ply", "to_world": [{"scale": scale}]}}
     if flat is not None:
         room["mesh"]["face_normals"] = flat
+    if with_uv:
+        room["mesh"]["bsdf"] = {"type": "diffuse", "reflectance": {"type": "ref", "id": "board"}}
     picture_or_refusal(lambda: tracer.load_dict(room, folder=folder))
 
 

@@ -54,8 +54,8 @@ def test_points_are_uniform_over_a_lamp(suite_seed, name, precision):
     faces = np.bincount(light.primitive, minlength=shape.primitives)
     assert chi_square(faces, N * chances) > sidak(4 * len(LAMPS))
     face = int(np.argmax(chances))
-    q = light.q[:, light.primitive == face].astype(np.float64)
-    a, b = shape.uv(q, np.full(q.shape[1], face))
+    q = light.q[:, light.primitive == face]
+    a, b = scene.uv(q, np.full(q.shape[1], face))
     if name == "sphere":
         a, b = a, 0.5 - 0.5 * np.cos(np.pi * b)
     elif name == "tall box":  # barycentric coordinates of the second and third corner

@@ -122,6 +122,36 @@ def test_a_file_may_include_another(read, tmp_path):
     assert same(read(XML.replace(white, '<include filename="part.xml"/>')), read(XML))
 
 
+BOARD = """<texture type="{kind}" {name}>
+    <rgb name="color0" value="0.8 0.1 0.1"/><float name="color1" value="0.2"/>
+    <transform name="to_uv"><scale x="4" y="2"/><translate x="0.25"/></transform>
+  </texture>"""
+
+
+def test_textures_stand_inside_or_are_referred_to(read):
+    to_uv = [{"scale": [4, 2, 1]}, {"translate": [0.25, 0, 0]}]
+    board = {"type": "checkerboard", "color0": [0.8, 0.1, 0.1], "color1": 0.2, "to_uv": to_uv}
+    wanted = tracer.load_dict({**DICT, "white": {"type": "diffuse", "reflectance": board}})
+    white = '<rgb name="reflectance" value="0.8, 0.7 0.6"/>'
+    inside = XML.replace(white, BOARD.format(kind="checkerboard", name='name="reflectance"'))
+    assert same(read(inside), wanted) and not same(wanted, read(XML))
+    apart = BOARD.format(kind="checkerboard", name='id="board"')
+    for text in (XML.replace("</scene>", apart + "</scene>"), XML.replace("<bsdf", apart + "<bsdf")):
+        assert same(read(text.replace(white, '<ref name="reflectance" id="board"/>')), wanted)
+    with pytest.raises(TracerError, match="line 8: white.reflectance.type: 'chess' is not supported"):
+        read(XML.replace(white, BOARD.format(kind="chess", name='name="reflectance"')))
+
+
+def test_how_mitsuba_keeps_a_bitmap_in_memory_does_not_matter(read, tmp_path):
+    np.save(tmp_path / "grey.npy", np.full((2, 2), 0.5))
+    picture = '<string name="filename" value="grey.npy"/>'
+    kept = '<string name="format" value="fp16"/><boolean name="accel" value="false"/>'
+    white = '<rgb name="reflectance" value="0.8, 0.7 0.6"/>'
+    texture = '<texture type="bitmap" name="reflectance">{}</texture>'
+    scenes = [read(XML.replace(white, texture.format(words))) for words in (picture, picture + kept)]
+    assert same(*scenes) and same(scenes[0], read(XML.replace("0.8, 0.7 0.6", "0.5")))
+
+
 def test_objects_without_ids_get_names_of_their_own(read):
     more = '<shape type="cube"/><shape type="cube"/><bsdf type="diffuse" id="cube_2"/></scene>'
     scene = read(XML.replace("</scene>", more))
@@ -279,8 +309,27 @@ EVERY_SPELLING = {
     "card": {"type": "twosided", "inside": {"type": "roughplastic", "alpha": 0.2, "nonlinear": True}},
     "gold": {"type": "conductor", "eta": [0.2, 0.4, 1.5], "k": (3, 2, 2)},
     "sheet": {"type": "rectangle", "bsdf": "card", "to_world": {"translate": [-1, 0, 1]}},
+    "picture": {
+        "type": "bitmap",
+        "filename": "in/a.npy",
+        "filter_type": "nearest",
+        "wrap_mode": "mirror",
+        "raw": True,
+        "to_uv": [{"scale": [3, -2, 1]}, {"rotate": [0, 0, 1], "angle": 30}],
+    },
+    "painted": {
+        "type": "twosided",
+        "bsdf": {"type": "plastic", "diffuse_reflectance": {"type": "ref", "id": "picture"}},
+    },
+    "poster": {"type": "rectangle", "bsdf": "painted", "to_world": {"translate": [0.5, 0.5, 1.5]}},
+    "board": {
+        "type": "rectangle",
+        "bsdf": {"type": "diffuse", "reflectance": {"type": "checkerboard", "color1": [0.1, 0.2, 0.3]}},
+        "to_world": {"translate": [0.5, -0.5, 1.5]},
+    },
     "mesh": {
         "type": "obj",
+        "flip_tex_coords": False,
         "filename": "in/m.obj",
         "bsdf": "gold",
         "to_world": [{"rotate": [1, 2, 3], "angle": 4}],
@@ -291,6 +340,7 @@ EVERY_SPELLING = {
 def test_every_spelling_of_a_dict_goes_out_and_comes_back_the_same(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    np.save(tmp_path / "in" / "a.npy", np.random.default_rng(0).random((3, 4, 3)))
     scene = tracer.load_dict(EVERY_SPELLING, "every", tmp_path)
     tracer.export(scene, tmp_path / "every.xml")
     back = tracer.load(tmp_path / "every.xml")

@@ -26,6 +26,11 @@ class RoughConductor(Material):
     fresnel: str = "exact"  # or "schlick"
 
     @property
+    def anisotropic(self):
+        """Whether it minds being turned about the normal."""
+        return bool((self.alpha_u != self.alpha_v).any())
+
+    @property
     def facets(self):
         """The normals of its surface."""
         return Facets(self.distribution, self.alpha_u, self.alpha_v)

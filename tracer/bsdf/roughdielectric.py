@@ -34,6 +34,11 @@ class RoughDielectric(Material):
     see_through = True
 
     @property
+    def anisotropic(self):
+        """Whether it minds being turned about the normal."""
+        return bool((self.alpha_u != self.alpha_v).any())
+
+    @property
     def facets(self):
         """The normals of its surface."""
         return Facets(self.distribution, self.alpha_u, self.alpha_v)

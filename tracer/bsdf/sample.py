@@ -32,6 +32,7 @@ class Material:
     see_through = False  # whether light passes to the other side
     thin = False  # whether there is nothing between the sides: two faces taken for one
     vanishes = False  # whether light passes as if nothing were there
+    anisotropic = False  # whether it minds being turned about the normal
 
     @property
     def kind(self):

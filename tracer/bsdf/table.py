@@ -3,6 +3,8 @@
 A kind is a class and its parameters that are not arrays, such as the distribution of normals.
 """
 
+from functools import reduce
+
 import numpy as np
 
 from tracer.bsdf.sample import Sample
@@ -12,10 +14,11 @@ class BsdfTable:
     """Materials by number, grouped by kind with their parameters side by side.
 
     materials: sequence of material objects with one column each. dtype: precision of the parameters.
-    hemisphere: how diffuse surfaces choose directions.
+    hemisphere: how diffuse surfaces choose directions. textures: for each material {parameter: texture}; the
+    k-th of a material fills slot k of `painted`.
     """
 
-    def __init__(self, materials, dtype, hemisphere):
+    def __init__(self, materials, dtype, hemisphere, textures=()):
         materials = [m.sampling(hemisphere) for m in materials]
         kinds = list(dict.fromkeys(m.kind for m in materials))
         kind = [kinds.index(m.kind) for m in materials]
@@ -27,14 +30,51 @@ class BsdfTable:
         self._delta_of = np.array([m.delta for m in materials], bool)
         self._one_sided_of = np.array([m.one_sided for m in materials], bool)
         self._black_of = np.array([not np.any(m.albedo() > 0.0) for m in materials], bool)
+        self._anisotropic_of = np.array([m.anisotropic for m in materials], bool)
+        self.any_anisotropic = bool(self._anisotropic_of.any())
         self.any_delta = bool(self._delta_of.any())
         self.all_delta = bool(self._delta_of.all())
-        self._last = None, None
+        self._textures = {k: [t.astype(dtype) for t in of.values()] for k, of in enumerate(textures) if of}
+        self.any_textured = bool(self._textures)
+        self._slots = max(map(len, self._textures.values()), default=0)
+        self._puts = [
+            [put for put in self._all_puts(textures) if put[2][self._kind_of == number].any()]
+            for number in range(len(kinds))
+        ]
+        self._last = None, None, None
         self._plain = bool(self._one_sided_of.all() and not self._black_of.any())
+
+    def _all_puts(self, textures):
+        """Which parameter each slot stands for: (its path, slot, whether so for each material (M,))."""
+        places = [(name, slot) for of in textures for slot, name in enumerate(of)]
+        for name, slot in dict.fromkeys(places):
+            has = np.array([list(of).index(name) == slot if name in of else False for of in textures])
+            yield name.split("."), slot, has
+
+    def painted(self, material, p, primitive, uv):
+        """What the textures of (N,) materials say at points p (3, N), (slots, 3, N); None if none has any.
+
+        uv: gives the coordinates (2, M) of points on primitives; it is asked for those with a texture only.
+        """
+        values = None
+        for number, textures in self._textures.items():
+            lanes = np.flatnonzero(material == number)
+            if not lanes.size:
+                continue
+            if values is None:
+                values = np.zeros((self._slots, *p.shape), p.dtype)
+            here = uv(p.take(lanes, axis=1), primitive[lanes])
+            for slot, texture in enumerate(textures):
+                values[slot][:, lanes] = texture.at(here)
+        return values
 
     def is_delta(self, material):
         """Whether each material has nothing but Dirac lobes, for (N,) material numbers."""
         return self._delta_of.take(material)
+
+    def is_anisotropic(self, material):
+        """Whether each material minds how its frame is turned about the normal."""
+        return self._anisotropic_of.take(material)
 
     def reflects(self, material, wo):
         """Whether anything can be scattered towards wo (3, N): not black, and not seen from behind."""
@@ -44,53 +84,72 @@ class BsdfTable:
         two_sided = ~self._one_sided_of.take(material)
         return (front | (two_sided & (wo[2] < 0.0))) & ~self._black_of.take(material)
 
-    def eval(self, material, wo, wi):
-        """f (3, N) in sr^-1."""
-        return self._answer(material, lambda m, lanes: m.eval(wo[:, lanes], wi[:, lanes]))
+    def eval(self, material, wo, wi, texture=None):
+        """f (3, N) in sr^-1. texture: what `painted` says, here and below."""
+        return self._answer(material, texture, lambda m, lanes: m.eval(wo[:, lanes], wi[:, lanes]))
 
-    def pdf(self, material, wo, wi):
+    def pdf(self, material, wo, wi, texture=None):
         """Density (N,) in sr^-1 with which sample would give wi."""
-        return self._answer(material, lambda m, lanes: m.pdf(wo[:, lanes], wi[:, lanes]))
+        return self._answer(material, texture, lambda m, lanes: m.pdf(wo[:, lanes], wi[:, lanes]))
 
-    def sample(self, material, wo, u):
+    def sample(self, material, wo, u, texture=None):
         """A direction per lane, from u (3, N), as a Sample."""
-        return self._answer(material, lambda m, lanes: m.sample(wo[:, lanes], u[:, lanes]))
+        return self._answer(material, texture, lambda m, lanes: m.sample(wo[:, lanes], u[:, lanes]))
 
-    def property(self, material, name, wo, wi):
+    def colour(self, material, texture=None):
+        """The colour that stands for each material there, (3, N)."""
+
+        def answer(m, lanes):
+            return np.broadcast_to(m.display_colour(), (3, material[lanes].size))
+
+        return self._answer(material, texture, answer)
+
+    def property(self, material, name, wo, wi, texture=None):
         """A named quantity behind f (see Material.explain), (3, N); NaN where a material has none."""
 
         def answer(m, lanes):
             to, at = wo[:, lanes], wi[:, lanes]
             return np.broadcast_to(m.explain(to, at).get(name, np.nan), to.shape).astype(wo.dtype)
 
-        return self._answer(material, answer)
+        return self._answer(material, texture, answer)
 
-    def _answer(self, material, ask):
+    def _answer(self, material, texture, ask):
         """What `ask(material with parameters per lane, lanes)` gives, put together over the kinds."""
         if len(self._kinds) == 1:
-            return ask(self._gathered(0, material), slice(None))
+            return ask(self._gathered(0, material, texture), slice(None))
         kind = self._kind_of.take(material)
         parts = []
         for number in range(len(self._kinds)):
             lanes = np.flatnonzero(kind == number)
             if lanes.size or number == 0:
-                parts.append((lanes, ask(self._gathered(number, material[lanes]), lanes)))
+                here = None if texture is None else texture.take(lanes, axis=2)
+                parts.append((lanes, ask(self._gathered(number, material[lanes], here), lanes)))
         if isinstance(parts[0][1], Sample):
             columns = zip(*(part for _, part in parts), strict=True)
             where = [lanes for lanes, _ in parts]
             return Sample(*(_scatter(where, column, material.size) for column in columns))
         return _scatter([lanes for lanes, _ in parts], [part for _, part in parts], material.size)
 
-    def _gathered(self, number, material):
-        """One kind with a parameter column per lane; a single material is broadcast instead."""
-        kind = self._kinds[number]
-        if self._single[number]:
+    def _gathered(self, number, material, texture):
+        """One kind with a parameter column per lane; a single material in one colour is broadcast instead."""
+        kind, puts = self._kinds[number], () if texture is None else self._puts[number]
+        if self._single[number] and not puts:
             return kind
         if len(self._kinds) > 1:
-            return kind.take(self._row_of.take(material))
-        if self._last[0] is not material:  # eval, pdf and sample of one vertex ask for the same
-            self._last = material, kind.take(self._row_of.take(material))
-        return self._last[1]
+            return self._with_textures(kind.take(self._row_of.take(material)), puts, material, texture)
+        if self._last[0] is not material or self._last[1] is not texture:
+            # eval, pdf and sample of one vertex ask for the same
+            taken = self._with_textures(kind.take(self._row_of.take(material)), puts, material, texture)
+            self._last = material, texture, taken
+        return self._last[2]
+
+    def _with_textures(self, kind, puts, material, texture):
+        """Columns of its own, with what textures say in the place of parameters."""
+        for (*inside, parameter), slot, has in puts:
+            lanes = np.flatnonzero(has.take(material))
+            column = getattr(reduce(getattr, inside, kind), parameter)
+            column[:, lanes] = texture[slot].take(lanes, axis=1)
+        return kind
 
 
 def _scatter(where, parts, n):

@@ -20,6 +20,11 @@ class TwoSided(Material):
         """Whether all lobes are Dirac ones."""
         return self.bsdf.delta
 
+    @property
+    def anisotropic(self):
+        """Whether it minds being turned about the normal."""
+        return self.bsdf.anisotropic
+
     def albedo(self):
         """Bound of the share of light that is sent back, (3, M)."""
         return self.bsdf.albedo()

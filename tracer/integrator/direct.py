@@ -7,7 +7,6 @@ it again: emission counts only where no light sample could have been made, from 
 Dirac lobe.
 """
 
-from tracer.frame import Frame
 from tracer.integrator.stages import add_light, go_on, hit_event, sample_lights, stop_counted
 
 
@@ -28,7 +27,7 @@ def direct(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = Frame.around(hit.n)
+        frame = scene.frame(hit.n, hit.p, hit.primitive)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

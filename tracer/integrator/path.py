@@ -6,7 +6,6 @@ For every light path w_l + w_b = 1 (multiple importance sampling, Veach 1997, 9.
 mostly by the technique that is better at it. settings.strategy keeps only one of the two.
 """
 
-from tracer.frame import Frame
 from tracer.integrator.stages import (
     add_light,
     go_on,
@@ -36,7 +35,7 @@ def path(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = Frame.around(hit.n)
+        frame = scene.frame(hit.n, hit.p, hit.primitive)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

@@ -70,10 +70,10 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
     u = wave.random(paths.pixel, paths.sample, paths.depth, "light")
     light = wave.steps.light_point(scene, hit, u)
     wi = frame.to_local(light.wi)
-    f = scene.bsdf.eval(hit.bsdf, wo, wi)
+    f = scene.bsdf.eval(hit.bsdf, wo, wi, hit.texture)
     if scene.has_smooth_normals:
         f = f * sides_agree(hit, light.wi)
-    pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi)
+    pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi, hit.texture)
     if scene.lights.any_delta:  # no bounce meets these lights: their samples are never weighted
         pdf_bsdf = np.where(light.technique == _DELTA, 0.0, pdf_bsdf).astype(f.dtype)
     left = None

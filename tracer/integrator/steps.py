@@ -62,7 +62,7 @@ def light_term(beta, f, cos, light, w):
 
 def bounce(scene, hit, wo, u):
     """A direction from each hit's BSDF, as a Sample in the local frame; wo (3, N) is local too."""
-    return scene.bsdf.sample(hit.bsdf, wo, u)
+    return scene.bsdf.sample(hit.bsdf, wo, u, hit.texture)
 
 
 def throughput(beta, sample, cos):

@@ -5,7 +5,6 @@
 The integral is estimated by one direction wi drawn from the BSDF, and Li there by the same equation.
 """
 
-from tracer.frame import Frame
 from tracer.integrator.stages import go_on, hit_event, refuse_unmeetable
 
 
@@ -26,7 +25,7 @@ def walk(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = Frame.around(hit.n)
+        frame = scene.frame(hit.n, hit.p, hit.primitive)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

@@ -10,8 +10,10 @@ from pathlib import Path
 from tracer import medium
 from tracer.scene import Definition, Scene, Surface
 from tracer.scene_file import emitters, interior, limits, materials, objects
+from tracer.scene_file.textures import Sources
 from tracer.scene_file.words import Words, listed, shown
 from tracer.settings import TracerError
+from tracer.shape import Mesh
 
 BUILT_IN = Path(__file__).resolve().parents[2] / "scenes"
 
@@ -79,11 +81,13 @@ def load_dict(description, name="scene", folder="."):
         )
     kinds = {key: objects.kind_of(value, key) for key, value in named.items()}
     described = {key: named[key] for key, kind in kinds.items() if kind == "bsdf"}
-    bsdfs = {key: materials.bsdf(table, key, described) for key, table in described.items()}
+    textures = {key: named[key] for key, kind in kinds.items() if kind == "texture"}
+    sources = Sources(described, textures, Path(folder))
+    bsdfs = _Bsdfs(sources)
+    for key, table in described.items():
+        bsdfs.read(key, table)
     surfaces = tuple(
-        _surface(Words(named[key], key), bsdfs, Path(folder))
-        for key, kind in kinds.items()
-        if kind == "shape"
+        _surface(Words(named[key], key), bsdfs) for key, kind in kinds.items() if kind == "shape"
     )
     sensors = [key for key, kind in kinds.items() if kind == "sensor"]
     if len(sensors) != 1:
@@ -95,18 +99,34 @@ def load_dict(description, name="scene", folder="."):
     camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
     limits.check(surfaces, camera)
     surfaces, media = _visible(surfaces, bsdfs, medium.around(surfaces, bsdfs, camera.origin))
+    for surface in surfaces:
+        _check_coordinates(surface, bsdfs)
     used = {surface.bsdf: bsdfs[surface.bsdf] for surface in surfaces}
     lights = (
         emitters.emitter(named[key], key, Path(folder)) for key, kind in kinds.items() if kind == "emitter"
     )
     lights = emitters.only_one_sky(tuple(lights))
     source = copy.deepcopy(description), Path(folder)
-    return Scene(Definition(name, surfaces, used, camera, width, height, source, lights, media))
+    return Scene(
+        Definition(name, surfaces, used, camera, width, height, source, lights, media, bsdfs.textures)
+    )
 
 
-def _surface(table, bsdfs, folder):
+class _Bsdfs(dict):
+    """Materials by name, and the textures that stand for their parameters."""
+
+    def __init__(self, sources):
+        super().__init__()
+        self.sources, self.textures = sources, {}
+
+    def read(self, name, description):
+        """Add a material."""
+        self[name], self.textures[name] = materials.textured(description, name, self.sources)
+
+
+def _surface(table, bsdfs):
     """One shape with its material, which is added to `bsdfs` if it is written inside the shape."""
-    shape = objects.shape(table, folder)
+    shape = objects.shape(table, bsdfs.sources.folder)
     radiance = emitters.area_emitter(table.take("emitter", None), f"{table.place}.emitter")
     given, filling = table.take("bsdf", None), table.take("interior", None)
     interior.refuse_exterior(table)
@@ -121,7 +141,8 @@ def _bsdf_of(given, place, bsdfs, radiance):
     if given is None:
         # As in Mitsuba: grey, but a lamp about which nothing is said is black.
         name, grey = ("default", 0.5) if radiance is None else ("default_lamp", 0.0)
-        bsdfs.setdefault(name, materials.bsdf({"type": "diffuse", "reflectance": grey}, name))
+        if name not in bsdfs:
+            bsdfs.read(name, {"type": "diffuse", "reflectance": grey})
         return name
     if isinstance(given, dict) and given.get("type") == "ref":
         reference = Words(given, f"{place}.bsdf")
@@ -130,12 +151,25 @@ def _bsdf_of(given, place, bsdfs, radiance):
         reference.finish()
     if isinstance(given, dict):
         inline = f"{place}.bsdf"
-        bsdfs[inline] = materials.bsdf(given, inline)
+        bsdfs.read(inline, given)
         return inline
     if not isinstance(given, str) or given not in bsdfs:
         known = listed(bsdfs) or "none"
         raise TracerError(f"{place}.bsdf: no material {shown(given)} in this scene; there are {known}")
     return given
+
+
+def _check_coordinates(surface, bsdfs):
+    """TracerError if a material needs coordinates (u, v) that a mesh does not have."""
+    shape, textures = surface.shape, bsdfs.textures[surface.bsdf]
+    if not isinstance(shape, Mesh) or shape.uv is not None:
+        return
+    if textures or bsdfs[surface.bsdf].anisotropic:
+        what = "a texture" if textures else "a grain (alpha_u is not alpha_v)"
+        raise TracerError(
+            f"{shape.name}.bsdf: has {what}, but the mesh has no texture coordinates that say where it lies; "
+            "use an OBJ with vt at all corners, or a PLY with u, v"
+        )
 
 
 def _visible(surfaces, bsdfs, media):

@@ -15,7 +15,8 @@ from tracer.bsdf import (
 )
 from tracer.bsdf.metals import METALS, index_of
 from tracer.bsdf.microfacet import DISTRIBUTIONS
-from tracer.scene_file.words import LARGEST, MISSING, Words, colour, listed, near, real, shown
+from tracer.scene_file.textures import TEXTURES, Sources, texture
+from tracer.scene_file.words import LARGEST, MISSING, Words, colour, listed, one_of, real, shown, switch
 from tracer.settings import TracerError
 
 # Indices of refraction at 589 nm, between 0 and 20 degrees Celsius, by the names and values Mitsuba uses.
@@ -51,28 +52,44 @@ DEFAULT_ALPHA = 0.1
 FRESNEL = ("exact", "schlick")
 
 
-def bsdf(description, place, others=None):
-    """A material with one parameter column. others: descriptions by name that a `ref` inside may mean."""
-    table = Words(description, place)
+class _Table(Words):
+    """The table of a material; the textures that stand for its parameters are collected."""
+
+    def __init__(self, description, place, sources):
+        super().__init__(description, place)
+        self.sources, self.textures = sources, {}
+
+
+def bsdf(description, place):
+    """A material with one parameter column; a texture that stands for a parameter counts with its mean."""
+    return textured(description, place, Sources())[0]
+
+
+def textured(description, place, sources):
+    """The material, and the textures that stand for its parameters, {parameter: texture}.
+
+    The parameter of a material inside another is "NAME.PARAMETER".
+    """
+    table = _Table(description, place, sources)
     kind = table.take("type")
     if kind not in BSDFS:
         raise TracerError(f"{place}.type: {shown(kind)} is not a material; known: {listed(BSDFS)}")
-    material = _two_sided(table, others or {}) if kind == "twosided" else _READERS[kind](table)
+    material = _two_sided(table) if kind == "twosided" else _READERS[kind](table)
     table.finish()
-    return material
+    return material, table.textures
 
 
 def _diffuse(table):
-    return Diffuse(_column(table, "reflectance", 0.5, 1.0))
+    return Diffuse(_factor(table, "reflectance", 0.5))
 
 
 def _conductor(table):
-    return Conductor(*_metal(table), _one_of(table, "fresnel", FRESNEL))
+    return Conductor(*_metal(table), one_of(table, "fresnel", FRESNEL))
 
 
 def _rough_conductor(table):
     alphas, distribution = _roughness(table)
-    metal, formula = _metal(table), _one_of(table, "fresnel", FRESNEL)
+    metal, formula = _metal(table), one_of(table, "fresnel", FRESNEL)
     if alphas is None:
         return Conductor(*metal, formula)
     alpha_u, alpha_v = alphas
@@ -82,7 +99,7 @@ def _rough_conductor(table):
 def _metal(table) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """eta, k and specular_reflectance, (3, 1) each; a perfect mirror has k = inf."""
     material = table.take("material", None)
-    factor = _column(table, "specular_reflectance", 1.0, 1.0)
+    factor = _factor(table, "specular_reflectance", 1.0)
     if material == "none" or (material is None and "eta" not in table.table and "k" not in table.table):
         return np.ones((3, 1)), np.full((3, 1), np.inf), factor
     if material is None:
@@ -98,16 +115,16 @@ def _metal(table) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _dielectric(table):
-    return Dielectric(_eta(table, "bk7"), *_factors(table), _one_of(table, "fresnel", FRESNEL))
+    return Dielectric(_eta(table, "bk7"), *_factors(table), one_of(table, "fresnel", FRESNEL))
 
 
 def _thin_dielectric(table):
-    return ThinDielectric(_eta(table, "bk7"), *_factors(table), _one_of(table, "fresnel", FRESNEL))
+    return ThinDielectric(_eta(table, "bk7"), *_factors(table), one_of(table, "fresnel", FRESNEL))
 
 
 def _rough_dielectric(table):
     alphas, distribution = _roughness(table)
-    eta, factors, formula = _eta(table, "bk7"), _factors(table), _one_of(table, "fresnel", FRESNEL)
+    eta, factors, formula = _eta(table, "bk7"), _factors(table), one_of(table, "fresnel", FRESNEL)
     if alphas is None or eta[0] == 1.0:  # of equal indices every facet lets everything straight through
         return Dielectric(eta, *factors, formula)
     alpha_u, alpha_v = alphas
@@ -129,15 +146,13 @@ def _rough_plastic(table):
 
 def _coat(table):
     """diffuse_reflectance, specular_reflectance, nonlinear, fresnel."""
-    diffuse = _column(table, "diffuse_reflectance", 0.5, 1.0)
-    specular = _column(table, "specular_reflectance", 1.0, 1.0)
-    nonlinear = table.take("nonlinear", False)
-    if not isinstance(nonlinear, bool):
-        raise TracerError(f"{table.place}.nonlinear: {shown(nonlinear)} is neither true nor false")
-    return diffuse, specular, nonlinear, _one_of(table, "fresnel", FRESNEL)
+    diffuse = _factor(table, "diffuse_reflectance", 0.5)
+    specular = _factor(table, "specular_reflectance", 1.0)
+    nonlinear = switch(table, "nonlinear", False)
+    return diffuse, specular, nonlinear, one_of(table, "fresnel", FRESNEL)
 
 
-def _two_sided(table, others):
+def _two_sided(table):
     """The one material written inside, or referred to, under any name."""
     inside = [word for word, value in table.table.items() if isinstance(value, dict)]
     if len(inside) != 1:
@@ -148,12 +163,14 @@ def _two_sided(table, others):
         name = reference.take("id")
         reference.take("type")
         reference.finish()
-        if not isinstance(name, str) or name not in others:
-            raise TracerError(f"{place}: no material {shown(name)} in this scene; there are {listed(others)}")
-        description = others[name]
+        known = table.sources.bsdfs
+        if not isinstance(name, str) or name not in known:
+            raise TracerError(f"{place}: no material {shown(name)} in this scene; there are {listed(known)}")
+        description = known[name]
     if isinstance(description, dict) and description.get("type") == "twosided":
         raise TracerError(f"{place}.type: 'twosided' inside twosided is not supported")
-    material = bsdf(description, place)
+    material, textures = textured(description, place, table.sources)
+    table.textures |= {f"bsdf.{parameter}": texture for parameter, texture in textures.items()}
     if not material.one_sided:
         raise TracerError(f"{place}.type: {description['type']!r} lets light through, so it has two sides")
     return TwoSided(material)
@@ -161,7 +178,7 @@ def _two_sided(table, others):
 
 def _roughness(table, anisotropic=True):
     """((alpha_u, alpha_v), distribution), (1,) each; None for the alphas of a perfectly smooth surface."""
-    distribution = _one_of(table, "distribution", DISTRIBUTIONS, "beckmann")
+    distribution = one_of(table, "distribution", DISTRIBUTIONS)
     if table.take("sample_visible", True) is not True:
         raise TracerError(f"{table.place}.sample_visible: only true is supported")
     words = ["alpha"]
@@ -193,22 +210,22 @@ def _alpha(table, word):
 def _factors(table) -> tuple[np.ndarray, np.ndarray]:
     """specular_reflectance and specular_transmittance, (3, 1) each."""
     return (
-        _column(table, "specular_reflectance", 1.0, 1.0),
-        _column(table, "specular_transmittance", 1.0, 1.0),
+        _factor(table, "specular_reflectance", 1.0),
+        _factor(table, "specular_transmittance", 1.0),
     )
 
 
-def _column(table, word, default, most=LARGEST):
-    return colour(table.take(word, default), f"{table.place}.{word}", most)[:, None]
+def _factor(table, word, default):
+    """Share of light by colour, (3, 1); of a texture its mean, and the texture is kept in the table."""
+    value, place = table.take(word, default), f"{table.place}.{word}"
+    if not table.sources.is_texture(value):
+        return colour(value, place, 1.0, TEXTURES)[:, None]
+    table.textures[word] = texture(value, place, table.sources)
+    return table.textures[word].mean()[:, None]
 
 
-def _one_of(table, word, known, default="exact"):
-    value = table.take(word, default)
-    if not isinstance(value, str) or value not in known:
-        raise TracerError(
-            f"{table.place}.{word}: {shown(value)} is not known; {near(value, known)}known: {listed(known)}"
-        )
-    return value
+def _column(table, word, default):
+    return colour(table.take(word, default), f"{table.place}.{word}", LARGEST)[:, None]
 
 
 def _eta(table, default):

@@ -1,9 +1,9 @@
 """A scene as Mitsuba 3 XML: what it was made from, word by word, so that reading it gives the same scene.
 
-Meshes stay where they are: a file in or below the folder of the XML is named from there, any other by its
-whole path. What Mitsuba would assume differently is said: the size of the film, its box filter, and whether
-a mesh is smooth. A rotation about an axis that is not of length 1, which Mitsuba would take for a shear,
-goes out as its matrix.
+Meshes and pictures stay where they are: a file in or below the folder of the XML is named from there, any
+other by its whole path. What Mitsuba would assume differently is said: the size of the film, its box filter,
+whether a mesh is smooth, and that texels are kept in full. A rotation about an axis that is not of length 1,
+which Mitsuba would take for a shear, goes out as its matrix.
 """
 
 import re
@@ -16,6 +16,7 @@ import numpy as np
 from tracer.picture import write_whole
 from tracer.scene_file.materials import BSDFS
 from tracer.scene_file.objects import kind_of
+from tracer.scene_file.textures import TEXTURES
 from tracer.scene_file.to_world import to_world
 from tracer.scene_file.words import SceneWarning
 from tracer.settings import TracerError
@@ -82,13 +83,15 @@ class _Writer:
         for word, value in table.items():
             if word != "type":
                 self.entry(element, tag, word, value)
+        if tag == "texture" and table["type"] == "bitmap":
+            _value(element, "string", "format", "variant")  # or Mitsuba rounds the texels to half precision
         if tag == "film":
             ElementTree.SubElement(element, "rfilter", type="box")
 
     def entry(self, parent, tag, word, value):
         """One word of an object."""
         place = f"{parent.get('id', tag)}.{word}"
-        if word == "to_world":
+        if word in ("to_world", "to_uv"):
             _transform(ElementTree.SubElement(parent, "transform", name=word), value)
         elif word == "bsdf" and isinstance(value, str):
             ElementTree.SubElement(parent, "ref", id=_text(value, place))
@@ -116,7 +119,9 @@ class _Writer:
         if kind == "rgb":
             _value(parent, "rgb", word, _numbers(np.ravel(table["value"])))
         elif kind == "ref":
-            ElementTree.SubElement(parent, "ref", id=_text(table["id"], place))
+            of_texture = self.description[table["id"]]["type"] in TEXTURES
+            named = {"name": word} if of_texture else {}
+            ElementTree.SubElement(parent, "ref", id=_text(table["id"], place), **named)
         elif word in ("film", "emitter"):
             self.object(parent, word, table)
         elif word == "interior":

@@ -20,11 +20,11 @@ _SHARED = ("bsdf", "texture", "medium")  # what a <ref> may mean
 _LONGEST = 4096  # characters of a parameter: parameters made of parameters would grow without bound
 _PARAMETER = re.compile(r"\$([A-Za-z_]\w*)?")
 
-# What a film or sensor says about files and clipping, and a medium about its sampling: nothing that castray
-# draws depends on it.
+# What is said about files, clipping, memory and sampling: nothing that castray draws depends on it.
 _HARMLESS = {
     "film": {"file_format", "pixel_format", "component_format", "banner", "sample_border"},
     "sensor": {"near_clip", "far_clip"},
+    "texture": {"format", "accel"},
     "medium": {"sample_emitters", "has_spectral_extinction"},
 }
 

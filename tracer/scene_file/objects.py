@@ -5,8 +5,9 @@ import numpy as np
 from tracer.camera import Camera
 from tracer.scene_file.emitters import EMITTERS
 from tracer.scene_file.materials import BSDFS
+from tracer.scene_file.textures import TEXTURES
 from tracer.scene_file.to_world import to_world
-from tracer.scene_file.words import Words, listed, near, real, shown, triple
+from tracer.scene_file.words import Words, listed, near, real, shown, switch, triple
 from tracer.settings import TracerError
 from tracer.shape import Cube, Mesh, Rectangle, Sphere
 from tracer.shape.transform import check_invertible, determinant
@@ -16,13 +17,19 @@ SENSORS = ("perspective", "thinlens")
 
 
 def kind_of(table, place):
-    """Whether a named object is a "shape", a "bsdf", an "emitter" or a "sensor"."""
+    """Whether a named object is a "shape", a "bsdf", a "texture", an "emitter" or a "sensor"."""
     kind = Words(table, place).take("type")
-    families = {"shape": SHAPES, "bsdf": BSDFS, "emitter": EMITTERS, "sensor": SENSORS}
+    families = {
+        "shape": SHAPES,
+        "bsdf": BSDFS,
+        "texture": TEXTURES,
+        "emitter": EMITTERS,
+        "sensor": SENSORS,
+    }
     for family, known in families.items():
         if kind in known:
             return family
-    everything = (*SHAPES, *BSDFS, *EMITTERS, *SENSORS)
+    everything = [word for known in families.values() for word in known]
     hint = near(kind, everything)
     raise TracerError(f"{place}.type: {shown(kind)} is not supported; {hint}known: {listed(everything)}")
 
@@ -30,9 +37,7 @@ def kind_of(table, place):
 def shape(table, folder):
     """A shape; the words for material and emitter are left for the caller to take."""
     kind, place = table.take("type"), table.place
-    flip = table.take("flip_normals", False)
-    if not isinstance(flip, bool):
-        raise TracerError(f"{place}.flip_normals: {shown(flip)} is neither true nor false")
+    flip = switch(table, "flip_normals", False)
     matrix = to_world(table.take("to_world", []), f"{place}.to_world")
     if kind == "rectangle":
         return Rectangle(place, matrix, flip)
@@ -52,29 +57,35 @@ def _sphere(table, matrix, flip):
         matrix[:3, :3].T @ matrix[:3, :3], scale**2 * np.eye(3), rtol=1e-9, atol=1e-12 * scale**2
     ):
         raise TracerError(f"{place}.to_world: stretches the sphere; scale it evenly, or use a mesh")
-    return Sphere(place, matrix[:3, :3] @ center + matrix[:3, 3], radius * scale, flip)
+    return Sphere(
+        place, matrix[:3, :3] @ center + matrix[:3, 3], radius * scale, flip, matrix[:3, :3] / scale
+    )
 
 
 def _mesh(table, matrix, flip, folder):
-    from tracer.scene_file.mesh_file import read
+    from tracer.scene_file.mesh_file import read, unit
 
     filename = table.take("filename")
     if not isinstance(filename, str):
         raise TracerError(f"{table.place}.filename: {shown(filename)} is not the name of a file")
-    flat = table.take("face_normals", None)
-    if not (flat is None or isinstance(flat, bool)):
-        raise TracerError(f"{table.place}.face_normals: {shown(flat)} is neither true nor false")
+    flat = switch(table, "face_normals", None)
     smooth = None if flat is None else not flat
-    vertices, faces, normals = read(folder / filename, f"{table.place}.filename", smooth)
+    upside_down = False  # Mitsuba's words and defaults; OBJ counts v from the bottom, pictures from the top
+    if table.table["type"] in ("obj", "ply"):
+        upside_down = switch(table, "flip_tex_coords", table.table["type"] == "obj")
+    vertices, faces, normals, uv = read(folder / filename, f"{table.place}.filename", smooth)
+    if uv is not None and upside_down:
+        uv[..., 1] = 1.0 - uv[..., 1]
     turned = determinant(matrix[:3, :3]) < 0.0  # a reflection turns the winding round
     moved = vertices @ matrix[:3, :3].T + matrix[:3, 3]
     try:
         if normals is not None:
             check_invertible(matrix, table.place)
-            normals = normals @ np.linalg.inv(matrix[:3, :3])  # by the inverse transpose
-            size = np.linalg.norm(normals, axis=1, keepdims=True)
-            normals = normals / np.where(size > 0.0, size, 1.0)  # so that all weigh the same between them
-        return Mesh(table.place, moved, faces[:, ::-1] if turned else faces, flip, normals)
+            moved_by = np.linalg.inv(matrix[:3, :3])  # the inverse transpose, from the right
+            normals = unit(normals @ moved_by)  # so that all weigh the same between them
+        if turned:
+            faces, uv = faces[:, ::-1], None if uv is None else uv[:, ::-1]
+        return Mesh(table.place, moved, faces, flip, normals, uv)
     except TracerError as error:
         raise TracerError(f"{error} ({folder / filename})") from None
 

@@ -63,6 +63,24 @@ def real(value, place, least=-LARGEST, most=LARGEST):
     return float(value)
 
 
+def switch(table, word, default):
+    """True or false from a table of Words; the default where nothing is said."""
+    value = table.take(word, default)
+    if value is not default and not isinstance(value, bool):
+        raise TracerError(f"{table.place}.{word}: {shown(value)} is neither true nor false")
+    return value
+
+
+def one_of(table, word, known):
+    """One of the known words from a table of Words; the first where nothing is said."""
+    value = table.take(word, next(iter(known)))
+    if not isinstance(value, str) or value not in known:
+        raise TracerError(
+            f"{table.place}.{word}: {shown(value)} is not known; {near(value, known)}known: {listed(known)}"
+        )
+    return value
+
+
 def shown(value):
     """A value as an error message shows it: however it is nested, in part of a line."""
     try:
@@ -79,12 +97,16 @@ def triple(value, place, least=-LARGEST, most=LARGEST):
     return np.array([real(v, f"{place}[{k}]", least, most) for k, v in enumerate(value)])
 
 
-def colour(value, place, most=LARGEST):
-    """A linear RGB colour from a number, three numbers, or {type = "rgb", value = ...}, (3,) float64."""
+def colour(value, place, most=LARGEST, others=()):
+    """A linear RGB colour from a number, three numbers, or {type = "rgb", value = ...}, (3,) float64.
+
+    others: what else may stand there, for the message.
+    """
     if isinstance(value, dict):
         table = Words(value, place)
         if table.take("type") != "rgb":
-            raise TracerError(f"{place}.type: {shown(value['type'])} is not supported; known: rgb")
+            known = listed(("rgb", *others))
+            raise TracerError(f"{place}.type: {shown(value['type'])} is not supported; known: {known}")
         value = table.take("value")
         table.finish()
     if isinstance(value, (int, float)) and not isinstance(value, bool):

@@ -7,10 +7,14 @@ import numpy as np
 
 from tracer.frame import dot
 from tracer.shape import start, transform
+from tracer.shape.chart import Chart
 from tracer.shape.rays import hits_only, linear
 
 # Outward local normals: face 2k looks along -axis k, face 2k + 1 along +axis k.
 _NORMALS = np.array([[-1, 1, 0, 0, 0, 0], [0, 0, -1, 1, 0, 0], [0, 0, 0, 0, -1, 1]], np.float64)
+# Local directions in which u and v grow on each face.
+_U = np.array([[0, 0, 0, -1, 0, 0], [1, 1, 0, 0, -1, 1], [0, 0, 1, 0, 0, 0]], np.float64)
+_V = np.array([[0, 0, 1, 0, 1, 1], [0, 0, 0, 0, 0, 0], [1, -1, 0, -1, 0, 0]], np.float64)
 
 
 @dataclass(frozen=True)
@@ -66,12 +70,10 @@ class Cube:
         """Whether points (3, N) lie inside, (N,)."""
         return (np.abs(transform.points(np.linalg.inv(self.to_world), p)) < 1.0).all(axis=0)
 
-    def uv(self, p, face):
-        """Where on its face, (2, N) from 0 to 1."""
-        local = transform.points(np.linalg.inv(self.to_world), p)
-        axis = np.asarray(face) // 2
-        lanes = np.arange(local.shape[1])
-        return 0.5 * np.stack((local[(axis + 1) % 3, lanes], local[(axis + 2) % 3, lanes])) + 0.5
+    def chart(self):
+        """u and v from 0 to 1 over each face, turned as Mitsuba turns them."""
+        corner = transform.points(self.to_world, _NORMALS - _U - _V)
+        return Chart.spanned(corner, *(2.0 * transform.vectors(self.to_world, axis) for axis in (_U, _V)))
 
     def outline(self):
         """The four corners of each face, (3, 4, 6)."""

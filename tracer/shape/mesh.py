@@ -7,6 +7,7 @@ import numpy as np
 from tracer.frame import dot, normalize
 from tracer.settings import TracerError
 from tracer.shape import bvh, inside, start
+from tracer.shape.chart import Chart
 
 # Lanes times triangles in flight: small enough to stay in cache.
 _CHUNK = 1 << 15
@@ -17,8 +18,8 @@ class Mesh:
     """Triangles in world space.
 
     vertices: (V, 3) metres; faces: (F, 3) vertex numbers, counter-clockwise seen from outside; normals:
-    (V, 3) for smooth shading, of any length, or None for flat. Triangles without area are dropped: nothing
-    can be seen of them.
+    (V, 3) for smooth shading, of any length, or None for flat; uv: (F, 3, 2) texture coordinates of each
+    triangle's corners, or None. Triangles without area are dropped: nothing can be seen of them.
     """
 
     name: str
@@ -26,11 +27,14 @@ class Mesh:
     faces: np.ndarray
     flip_normals: bool = False
     normals: np.ndarray | None = None
+    uv: np.ndarray | None = None
 
     def __post_init__(self):
         check(self.name, self.vertices, self.faces)
         doubled = np.linalg.norm(self._cross(), axis=1)
         object.__setattr__(self, "faces", self.faces[doubled > 0.0])
+        if self.uv is not None:
+            object.__setattr__(self, "uv", self.uv[doubled > 0.0])
         if not len(self.faces):
             raise TracerError(f"{self.name}: no triangle has any area")
 
@@ -79,8 +83,12 @@ class Mesh:
         """Whether points (3, N) lie inside, (N,)."""
         return np.abs(inside.winding(self.vertices, self.faces, p)) > 0.5
 
-    def uv(self, p, face):
-        """Barycentric coordinates of the second and third vertex, (2, N)."""
+    def chart(self):
+        """Its texture coordinates; without any, those of `barycentric`."""
+        return Chart.spanned(*self.corners(), None if self.uv is None else self.uv.transpose(1, 2, 0))
+
+    def barycentric(self, p, face):
+        """Coordinates of the second and third vertex, (2, N)."""
         a, b, c = (self.vertices[self.faces[face, k]].T.astype(p.dtype) for k in range(3))
         e1, e2, q = b - a, c - a, p - a
         d11, d12, d22, q1, q2 = dot(e1, e1), dot(e1, e2), dot(e2, e2), dot(q, e1), dot(q, e2)
@@ -92,7 +100,7 @@ class Mesh:
 
         A grazing ray's distance, and with it the point, slides by the rounding of the plane over the cosine.
         """
-        v, w = self.uv(p, face)
+        v, w = self.barycentric(p, face)
         outside = np.flatnonzero((v < 0.0) | (w < 0.0) | (v + w > 1.0))
         if outside.size:
             v, w = np.maximum(v[outside], 0.0), np.maximum(w[outside], 0.0)
@@ -103,7 +111,7 @@ class Mesh:
 
     def shading_normals(self, p, face):
         """Normals interpolated between the vertices and made unit again, (3, N); NaN where they cancel."""
-        v, w = self.uv(p, face)
+        v, w = self.barycentric(p, face)
         a, b, c = (self.normals[self.faces[face, k]].T.astype(p.dtype) for k in range(3))
         n = normalize((1.0 - v - w) * a + v * b + w * c)
         return -n if self.flip_normals else n

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.shape import start, transform
+from tracer.shape.chart import Chart
 from tracer.shape.rays import hits_only, linear
 
 
@@ -54,10 +55,9 @@ class Rectangle:
         vertices = np.array([corner, corner + e1, corner + e1 + e2, corner + e2])
         return vertices, np.array([[0, 1, 2], [0, 2, 3]])
 
-    def uv(self, p, face):
-        """Where on the rectangle, (2, N) from 0 to 1."""
-        local = transform.points(np.linalg.inv(self.to_world), p)
-        return 0.5 * local[:2] + 0.5
+    def chart(self):
+        """u along x and v along y, from 0 to 1."""
+        return Chart.spanned(*self.parallelograms())
 
     def outline(self):
         """The four corners, (3, 4, 1)."""

@@ -1,23 +1,26 @@
 """A sphere, met by the form of the quadratic that keeps its digits far away (Haines et al. 2019)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from tracer.frame import dot
 from tracer.settings import TracerError
+from tracer.shape.chart import Chart
+from tracer.shape.rays import linear
 
 _RINGS = 24  # drawing only
 
 
 @dataclass(frozen=True)
 class Sphere:
-    """Mitsuba's `sphere`: centre and radius in metres."""
+    """Mitsuba's `sphere`: centre and radius in metres, and how its axes are turned."""
 
     name: str
     center: np.ndarray  # (3,)
     radius: float
     flip_normals: bool = False
+    turn: np.ndarray = field(default_factory=lambda: np.eye(3))  # (3, 3), its x, y and z in the columns
 
     primitives = 1
 
@@ -61,12 +64,29 @@ class Sphere:
         )
         return self.center + self.radius * ring.reshape(-1, 3), faces.reshape(-1, 3)
 
-    def uv(self, p, face):
-        """Longitude and latitude, (2, N) from 0 to 1."""
-        n = (p - self.center[:, None]) / self.radius
-        return np.stack(
-            (np.arctan2(n[1], n[0]) / (2.0 * np.pi) % 1.0, np.arccos(np.clip(n[2], -1, 1)) / np.pi)
-        )
+    def chart(self):
+        """A sphere is not flat: zeros."""
+        return Chart.none()
+
+    def _local(self, p):
+        """Its own x, y and z of points (3, N), times their distance from the centre."""
+        out = p - self.center.astype(p.dtype).reshape(3, 1)
+        return [linear(tuple(axis.astype(p.dtype)), out) for axis in self.turn.T]
+
+    def uv_at(self, p):
+        """Longitude from x by way of y, and angle from z, (2, N) from 0 to 1."""
+        x, y, z = self._local(p)
+        u = np.arctan2(y, x) * p.dtype.type(0.5 / np.pi)
+        v = np.arctan2(np.sqrt(x * x + y * y), z) * p.dtype.type(1.0 / np.pi)
+        return np.stack((np.where(u < 0.0, u + 1.0, u), v))
+
+    def tangent_at(self, p):
+        """Unit dp/du (3, N), along the circles of latitude; 0 at the poles."""
+        x, y, _ = self._local(p)
+        size = np.sqrt(x * x + y * y)
+        size = np.where(size > 0.0, size, 1.0)
+        axes = self.turn.astype(p.dtype)
+        return axes[:, 1:2] * (x / size) - axes[:, 0:1] * (y / size)
 
     def outline(self):
         """Its centre, four times, (3, 4, 1): a sphere lies where its centre lies."""
