@@ -62,16 +62,36 @@ class Sparse(NamedTuple):
 class Event:
     """What one stage of the loop did: columns of one kind, one entry per path that took part.
 
-    lane: (N,) places in the wave. depth: (N,). columns: name -> (..., N) array. Never written to again.
+    Never written to again. A lane below 0 is that of a path that was over before and is still carried along:
+    who reads the event does not see it.
     """
 
     def __init__(self, kind, lane, depth, columns):
-        self.kind, self.lane, self.depth, self._given = kind, lane, depth, columns
+        self.kind, self._lane, self._depth, self._given = kind, lane, depth, columns
+
+    @cached_property
+    def _seen(self):
+        """Which entries are of paths under way, None for all."""
+        return None if self._lane.min(initial=0) >= 0 else np.flatnonzero(self._lane >= 0)
+
+    def _of_seen(self, column):
+        whole = column.whole() if isinstance(column, Sparse) else column
+        return whole if self._seen is None else whole.take(self._seen, axis=-1)
+
+    @cached_property
+    def lane(self):
+        """(N,) places in the wave."""
+        return self._of_seen(self._lane)
+
+    @cached_property
+    def depth(self):
+        """(N,) bounces before it."""
+        return self._of_seen(self._depth)
 
     @cached_property
     def columns(self):
         """name -> (..., N) array."""
-        return {name: c.whole() if isinstance(c, Sparse) else c for name, c in self._given.items()}
+        return {name: self._of_seen(column) for name, column in self._given.items()}
 
 
 @dataclass(frozen=True)

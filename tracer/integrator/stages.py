@@ -91,7 +91,8 @@ def add_light(scene, wave, paths, hit, direct, w):
     through = {}
     if left is not None:
         arriving, through = arriving * left, {"transmittance": left}
-    visible = _seen(scene, wave, hit, lanes, light, any_channel(arriving))
+    bright = any_channel(arriving) & (paths.lane[lanes] >= 0)
+    visible = _seen(scene, wave, hit, lanes, light, bright)
     contribution = arriving * visible
     yield LIGHT(
         paths.lane[lanes],
@@ -213,8 +214,4 @@ def _play(wave, paths, hit, wi, q, played):
         after, alive = paths.beta.copy(), np.ones(paths.lane.shape, bool)
         after[:, played], alive[played] = beta, survived
     paths = paths._replace(beta=after)
-    if survived.all():
-        return paths, hit, wi
-    yield wave.end(at_stake, np.flatnonzero(~survived), "roulette")
-    lanes = np.flatnonzero(alive)
-    return paths.take(lanes), hit.take(lanes), wi.take(lanes, axis=1)
+    return (yield from wave.stop(paths, ~alive, "roulette", hit, wi))

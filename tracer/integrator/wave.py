@@ -11,8 +11,15 @@ from tracer.integrator.steps import RIGHT
 _REASON = {reason: np.int8(code) for code, reason in enumerate(END_REASONS)}
 
 
+# Up to this share of a wave, paths that are over are carried along: to pick out the others costs more.
+CARRIED = 0.1
+
+
 class Paths(NamedTuple):
-    """The paths still under way, one column per lane. Never written to: each stage makes new ones."""
+    """The paths still under way, one column per lane. Never written to: each stage makes new ones.
+
+    A few may be over already (lane -1): nothing that happens to those is seen or counted.
+    """
 
     lane: np.ndarray  # (N,) place in the wave
     pixel: np.ndarray  # (N,) packed pixel, for the sampler
@@ -61,6 +68,7 @@ class Wave:
         self.radiance = np.zeros((3, self.x.size), settings.dtype)
         self.dropped = 0
         self.rays = 0
+        self._over = 0  # paths that are over and still carried along
 
     def begin(self, scene):
         """Yield the event of leaving the camera; return the paths there."""
@@ -90,11 +98,14 @@ class Wave:
         """Yield the events of rays that meet nothing, with what the environment sends along them; return the
         other paths and their hits. strategy: how lights are found, for the weight."""
         t, primitive = scene.intersect(paths.o, paths.d, paths.source)
-        self.rays += t.size
+        self.rays += self.count(paths.lane)
         met = primitive >= 0
-        if not met.all():
-            yield from self._escape(scene, paths, np.flatnonzero(~met), strategy)
-            lanes = np.flatnonzero(met)
+        if self._over or not met.all():
+            alive = paths.lane >= 0
+            lost = np.flatnonzero(~met & alive)
+            if lost.size:
+                yield from self._escape(scene, paths, lost, strategy)
+            lanes, self._over = np.flatnonzero(met & alive), 0
             paths, t, primitive = paths.take(lanes), t.take(lanes), primitive.take(lanes)
         if paths.medium is not None:
             left = self.steps.transmittance(scene, paths.medium, t)
@@ -120,12 +131,26 @@ class Wave:
 
     def stop(self, paths, over, reason, *columns):
         """Yield the end of the paths that are over, (N,) bool; return the others, and their columns."""
-        if over.any():
-            yield self.end(paths, np.flatnonzero(over), reason)
-            lanes = np.flatnonzero(~over)
-            paths = paths.take(lanes)
-            columns = [_take(column, lanes) for column in columns]
-        return paths, *columns
+        if not over.any():
+            return paths, *columns
+        if self._over:
+            over = over & (paths.lane >= 0)
+        lanes = np.flatnonzero(over)
+        if not lanes.size:
+            return paths, *columns
+        yield self.end(paths, lanes, reason)
+        self._over += lanes.size
+        if self._over <= CARRIED * over.size:
+            lane = paths.lane.copy()
+            lane[lanes] = -1
+            return paths._replace(lane=lane), *columns
+        going = np.flatnonzero(~over & (paths.lane >= 0))
+        self._over = 0
+        return paths.take(going), *(_take(column, going) for column in columns)
+
+    def count(self, lane):
+        """How many of the paths with these lanes are under way."""
+        return int(np.count_nonzero(lane >= 0)) if self._over else lane.size
 
     def end(self, paths, lanes, reason):
         """The paths at these places are over: the event of their end."""
