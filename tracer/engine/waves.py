@@ -10,11 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer import film
+from tracer.engine.memory import keep_freed
 from tracer.integrator import ALL as INTEGRATORS
 from tracer.integrator.wave import Wave
 
 # Paths in a wave: enough to hide Python's cost per call, few enough to keep most arrays in the cache.
-LANES = 1 << 15
+LANES = 1 << 16
 
 
 class Task(NamedTuple):
@@ -65,6 +66,7 @@ def rows(pixels, sample):
 
 def trace(scene, settings, steps, task):
     """Trace one task and fold its samples."""
+    keep_freed()
     numbers = task.numbers
     pixel = np.repeat(numbers, task.samples)
     first = np.broadcast_to(task.sample, numbers.shape)

@@ -113,13 +113,13 @@ class CubeKernel:
         o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
         d = [linear(row, rays.d) for row in self.rows]
         near = far = None
+        some_along = not (d[0] * d[1] * d[2]).all()
         for o_k, d_k in zip(o, d, strict=True):
             inverse = self.one / d_k
             low, high = (-self.one - o_k) * inverse, (self.one - o_k) * inverse
             enter, leave = np.minimum(low, high), np.maximum(low, high)
-            along = d_k == 0.0
-            if along.any():
-                along &= np.abs(o_k) <= self.one
+            if some_along:
+                along = (d_k == 0.0) & (np.abs(o_k) <= self.one)
                 np.copyto(enter, -np.inf, where=along)
                 np.copyto(leave, np.inf, where=along)
             near = enter if near is None else np.maximum(near, enter)
