@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.bsdf.table import BsdfTable
-from tracer.frame import Frame, dot, length
+from tracer.frame import Frame, dot, length, put
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
@@ -198,9 +198,12 @@ class Scene:
         n = ng.copy()
         for first, shape in self._smooth:
             lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            smooth = shape.shading_normals(p[:, lanes], primitive[lanes] - first)
-            good = dot(smooth, wo[:, lanes]) * dot(ng[:, lanes], wo[:, lanes]) > 0.0  # not so for NaN
-            n[:, lanes[good]] = smooth[:, good]
+            smooth = shape.shading_normals(p.take(lanes, axis=1), primitive[lanes] - first)
+            seen = wo.take(lanes, axis=1)
+            good = np.flatnonzero(
+                dot(smooth, seen) * dot(ng.take(lanes, axis=1), seen) > 0.0
+            )  # not so for NaN
+            put(n, lanes[good], smooth.take(good, axis=1))
         return n
 
     def _on_surface(self, p, primitive):
@@ -209,13 +212,13 @@ class Scene:
         p = p - (dot(n, p) - c) * n
         for first, shape in self._meshes:
             lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            p[:, lanes] = shape.put_inside(p[:, lanes], primitive[lanes] - first)
+            put(p, lanes, shape.put_inside(p.take(lanes, axis=1), primitive[lanes] - first))
         for first, center, radius, side in self._spheres:
             lanes = np.flatnonzero(primitive == first)
-            out = p[:, lanes] - center
+            out = p.take(lanes, axis=1) - center
             out = out / length(out)
-            p[:, lanes] = center + radius * out
-            n[:, lanes] = side * out
+            put(p, lanes, center + radius * out)
+            put(n, lanes, side * out)
         return p, n, self._bound(p, n, primitive)
 
     def _bound(self, p, n, primitive):

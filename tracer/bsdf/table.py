@@ -8,6 +8,7 @@ from functools import reduce
 import numpy as np
 
 from tracer.bsdf.sample import Sample
+from tracer.frame import put
 
 
 class BsdfTable:
@@ -86,15 +87,15 @@ class BsdfTable:
 
     def eval(self, material, wo, wi, texture=None):
         """f (3, N) in sr^-1. texture: what `painted` says, here and below."""
-        return self._answer(material, texture, lambda m, lanes: m.eval(wo[:, lanes], wi[:, lanes]))
+        return self._answer(material, texture, lambda m, lanes: m.eval(_some(wo, lanes), _some(wi, lanes)))
 
     def pdf(self, material, wo, wi, texture=None):
         """Density (N,) in sr^-1 with which sample would give wi."""
-        return self._answer(material, texture, lambda m, lanes: m.pdf(wo[:, lanes], wi[:, lanes]))
+        return self._answer(material, texture, lambda m, lanes: m.pdf(_some(wo, lanes), _some(wi, lanes)))
 
     def sample(self, material, wo, u, texture=None):
         """A direction per lane, from u (3, N), as a Sample."""
-        return self._answer(material, texture, lambda m, lanes: m.sample(wo[:, lanes], u[:, lanes]))
+        return self._answer(material, texture, lambda m, lanes: m.sample(_some(wo, lanes), _some(u, lanes)))
 
     def colour(self, material, texture=None):
         """The colour that stands for each material there, (3, N)."""
@@ -108,7 +109,7 @@ class BsdfTable:
         """A named quantity behind f (see Material.explain), (3, N); NaN where a material has none."""
 
         def answer(m, lanes):
-            to, at = wo[:, lanes], wi[:, lanes]
+            to, at = _some(wo, lanes), _some(wi, lanes)
             return np.broadcast_to(m.explain(to, at).get(name, np.nan), to.shape).astype(wo.dtype)
 
         return self._answer(material, texture, answer)
@@ -152,9 +153,14 @@ class BsdfTable:
         return kind
 
 
+def _some(w, lanes):
+    """Columns of w (3, N) at some lanes."""
+    return w if isinstance(lanes, slice) else w.take(lanes, axis=1)
+
+
 def _scatter(where, parts, n):
     """One array of n lanes from parts and the lanes each belongs to."""
     whole = np.empty((*parts[0].shape[:-1], n), parts[0].dtype)
     for lanes, part in zip(where, parts, strict=True):
-        whole[..., lanes] = part
+        put(whole, lanes, part)
     return whole

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES, Sparse
-from tracer.frame import cos_theta, dot
+from tracer.frame import cos_theta, dot, put
 from tracer.integrator.steps import RIGHT
 from tracer.settings import TracerError
 
@@ -86,7 +86,7 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
 def add_light(scene, wave, paths, hit, direct, w):
     """Cast the shadow rays that can carry light and add what arrives; yield the event, return the paths."""
     lanes, light, f, cos, pdf_bsdf, u, left = direct
-    beta = paths.beta[:, lanes]
+    beta = paths.beta if isinstance(lanes, slice) else paths.beta.take(lanes, axis=1)
     arriving = wave.steps.light_term(beta, f, cos, light, w)
     through = {}
     if left is not None:
@@ -212,6 +212,7 @@ def _play(wave, paths, hit, wi, q, played):
     alive, after = survived, beta
     if not everyone:
         after, alive = paths.beta.copy(), np.ones(paths.lane.shape, bool)
-        after[:, played], alive[played] = beta, survived
+        put(after, played, beta)
+        alive[played] = survived
     paths = paths._replace(beta=after)
     return (yield from wave.stop(paths, ~alive, "roulette", hit, wi))

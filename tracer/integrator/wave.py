@@ -6,6 +6,7 @@ import numpy as np
 
 from tracer import sampler as samplers
 from tracer.events import CAMERA, END, END_REASONS, ESCAPE
+from tracer.frame import put
 from tracer.integrator.steps import RIGHT
 
 _REASON = {reason: np.int8(code) for code, reason in enumerate(END_REASONS)}
@@ -168,8 +169,7 @@ class Wave:
             self.dropped += int(np.count_nonzero(~finite))
             reasons[~finite] = _REASON["invalid"]
             counted = np.where(finite, counted, 0.0).astype(counted.dtype)
-        for channel, of_paths in zip(self.radiance, counted, strict=True):
-            channel[lane] = of_paths
+        put(self.radiance, lane, counted)
         return END(lane, depth, reason=reasons, radiance=counted)
 
 

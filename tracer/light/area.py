@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer import warp
-from tracer.frame import dot
+from tracer.frame import dot, put
 from tracer.light import rectangle, sphere
 from tracer.light.sample import AREA, CONE, SOLID_ANGLE, LightSample
 
@@ -126,7 +126,7 @@ class AreaLights:
         for technique, seen in ((SOLID_ANGLE, self._solid_angle), (CONE, self._cone)):
             lanes = np.flatnonzero(way == technique)
             if lanes.size:
-                omega = seen(p[:, lanes], face[lanes])
+                omega = seen(p.take(lanes, axis=1), face[lanes])
                 usable = omega > 0.0
                 density[lanes] = np.where(usable, 1.0 / omega, density[lanes])
         return density * self._chance.take(face)
@@ -140,7 +140,7 @@ class AreaLights:
         for technique, draw in self._draw.items():
             lanes = np.flatnonzero(way == technique)
             if lanes.size or not parts:
-                parts.append((lanes, draw(self, p[:, lanes], u[:, lanes], face[lanes])))
+                parts.append((lanes, draw(self, p.take(lanes, axis=1), u.take(lanes, axis=1), face[lanes])))
         return scattered(parts, p.shape[1])
 
     def _by_area(self, p, u, face):
@@ -212,5 +212,5 @@ def scattered(parts, n):
     columns = [np.empty((*column.shape[:-1], n), column.dtype) for column in first]
     for lanes, values in parts:
         for column, value in zip(columns, values, strict=True):
-            column[..., lanes] = value
+            put(column, lanes, value)
     return columns

@@ -44,11 +44,13 @@ class Lights:
         parts = []
         if self.area is not None:
             lanes = np.flatnonzero(entry < self._faces)
-            parts.append((lanes, self.area.sample(p[:, lanes], u[1:, lanes], entry[lanes])))
+            parts.append(
+                (lanes, self.area.sample(p.take(lanes, axis=1), u[1:].take(lanes, axis=1), entry[lanes]))
+            )
         for k in range(len(self._others)):
             lanes = np.flatnonzero(entry == self._faces + k)
             if lanes.size or not parts:
-                parts.append((lanes, self._elsewhere(k, p[:, lanes], u[1:, lanes])))
+                parts.append((lanes, self._elsewhere(k, p.take(lanes, axis=1), u[1:].take(lanes, axis=1))))
         return LightSample(*scattered(parts, entry.size))
 
     def _elsewhere(self, k, p, u):
