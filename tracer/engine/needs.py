@@ -74,7 +74,7 @@ def _materials(scene):
         "materials apart", count > 1, f"{count} kinds, a pass each" if count > 1 else "all of one kind"
     )
     painted = [name for name, textures in scene.definition.textures.items() if textures]
-    yield Need("textures", bool(painted), _some(painted) if painted else "every colour is one number a channel")
+    yield Need("textures", bool(painted), _some(painted) if painted else "all colours are even")
     grain = scene.bsdf.any_anisotropic
     yield Need("frames along u", grain, "a material has a grain" if grain else "no material has a grain")
     filled = scene.media is not None
