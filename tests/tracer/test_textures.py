@@ -10,6 +10,7 @@ from PIL import Image
 
 import tracer
 from tracer import Settings, TracerError
+from tracer.engine.needs import needs
 from tracer.picture import from_srgb
 from tracer.scene_file.materials import bsdf, textured
 from tracer.scene_file.textures import Sources, texture
@@ -264,6 +265,8 @@ def test_textures_are_named_and_referred_to():
     }
     scene = tracer.load_dict(room)
     assert scene.bsdf.any_textured and np.allclose(scene.display_colour(0), [0.5, 0.35, 0.5])
+    with pytest.raises(TracerError, match=r"spare.color0\[0\]: 2 is out of range"):
+        tracer.load_dict({**room, "spare": {**CHECKER, "color0": 2.0}})
     with pytest.raises(TracerError, match="no material 'board'"):
         tracer.load_dict({**room, "ball": {"type": "sphere", "bsdf": "board"}})
 
@@ -302,6 +305,14 @@ def test_d_and_g_of_an_event_are_of_the_frame_of_the_loop():
                     assert np.allclose(f, v["f"], rtol=1e-9) or np.allclose(f * colour, v["f"], rtol=1e-9)
                     found += 1
     assert found > 20
+
+
+def test_explain_says_who_needs_coordinates():
+    told = {need.name: need for need in needs(loaded("textures"), Settings())}
+    assert told["textures"].why == "tiles, paper, ceramic"
+    assert told["frames along the surface"].why == "brushed, brass"
+    told = {need.name: need for need in needs(loaded("cornell_unit"), Settings())}
+    assert not told["textures"].on and not told["frames along the surface"].on
 
 
 def test_coordinates_are_worked_out_where_a_texture_is_met_and_nowhere_else(monkeypatch):

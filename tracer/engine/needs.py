@@ -66,9 +66,12 @@ def _materials(scene):
         ("Dirac lobes", lambda m: m.delta or type(m).__name__ == "Plastic"),
         ("facets", lambda m: hasattr(m, "facets")),
         ("light through surfaces", lambda m: m.see_through),
+        ("frames along the surface", lambda m: m.anisotropic),
     ):
         names = [name for name, material in kinds.items() if has(material)]
         yield Need(title, bool(names), _some(names) if names else "no material has any")
+    painted = [name for name in materials if scene.definition.textures.get(name)]
+    yield Need("textures", bool(painted), _some(painted) if painted else "every material has one colour")
     count = len({material.kind for material in materials.values()})
     yield Need(
         "materials apart", count > 1, f"{count} kinds, a pass each" if count > 1 else "all of one kind"

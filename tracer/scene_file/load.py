@@ -10,7 +10,7 @@ from pathlib import Path
 from tracer import medium
 from tracer.scene import Definition, Scene, Surface
 from tracer.scene_file import emitters, interior, limits, materials, objects
-from tracer.scene_file.textures import Sources
+from tracer.scene_file.textures import Sources, texture
 from tracer.scene_file.words import Words, listed, shown
 from tracer.settings import TracerError
 from tracer.shape import Mesh
@@ -81,8 +81,10 @@ def load_dict(description, name="scene", folder="."):
         )
     kinds = {key: objects.kind_of(value, key) for key, value in named.items()}
     described = {key: named[key] for key, kind in kinds.items() if kind == "bsdf"}
-    textures = {key: named[key] for key, kind in kinds.items() if kind == "texture"}
-    sources = Sources(described, textures, Path(folder))
+    sources = Sources(described, {}, Path(folder))
+    for key, kind in kinds.items():
+        if kind == "texture":
+            sources.textures[key] = texture(named[key], key, sources)
     bsdfs = _Bsdfs(sources)
     for key, table in described.items():
         bsdfs.read(key, table)

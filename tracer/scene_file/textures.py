@@ -20,7 +20,7 @@ class Sources(NamedTuple):
     """What descriptions of materials may refer to."""
 
     bsdfs: dict = {}  # descriptions by name
-    textures: dict = {}
+    textures: dict = {}  # textures by name
     folder: Path = Path()  # where pictures are looked for
 
     def is_texture(self, value):
@@ -38,7 +38,7 @@ def texture(description, place, sources):
         if not isinstance(name, str) or name not in sources.textures:
             known = listed(sources.textures) or "none"
             raise TracerError(f"{place}: no texture {shown(name)} in this scene; there are {known}")
-        return texture(sources.textures[name], name, sources)
+        return sources.textures[name]
     made = _checkerboard(table) if kind == "checkerboard" else _bitmap(table, sources.folder)
     table.finish()
     return made
