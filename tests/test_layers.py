@@ -32,6 +32,7 @@ FLOORS = {
     "tracer.recorder": 1,
     "tracer.light": 2,
     "tracer.material_bench": 2,
+    "tracer.definition": 2,
     "tracer.medium": 2,
     "tracer.scene": 3,
     "tracer.scene_file": 4,

@@ -16,30 +16,6 @@ from tracer.shape.rays import Rays, error_bound, leave
 from tracer.shape.sphere import Sphere
 
 
-class Surface(NamedTuple):
-    """One shape with what covers it."""
-
-    shape: object
-    bsdf: str  # name of its material
-    radiance: np.ndarray | None = None  # (3,) if it shines
-    interior: np.ndarray | None = None  # (3,) share of the light lost per metre in what fills it
-
-
-class Definition(NamedTuple):
-    """What a scene file says, in float64."""
-
-    name: str
-    surfaces: tuple
-    bsdfs: dict  # name -> material
-    camera: object
-    width: int
-    height: int
-    source: tuple | None = None  # the description it was made from, and the folder of its files
-    emitters: tuple = ()  # lights that are no shapes
-    media: object = None  # medium.Media of the surfaces, None where nothing is filled
-    textures: dict = {}  # name of a material -> {parameter: texture}
-
-
 class Hit(NamedTuple):
     """Where rays meet surfaces, one column per lane."""
 

@@ -8,7 +8,8 @@ import copy
 from pathlib import Path
 
 from tracer import medium
-from tracer.scene import Definition, Scene, Surface
+from tracer.definition import Definition, Surface
+from tracer.scene import Scene
 from tracer.scene_file import emitters, interior, limits, materials, objects
 from tracer.scene_file.textures import Sources, texture
 from tracer.scene_file.words import Words, listed, shown
