@@ -2,6 +2,8 @@
 
 The dielectric forms are rearranged so that nothing cancels: with e the relative index, c the cosine and
 g = e cos_t, c - g is computed as -(e-1)(e+1)/(c+g), and e^2 c - g as (e^2-1)((e^2+1)c^2-1)/(e^2 c+g).
+Numbers in float32 are taken to float64 and the reflectances rounded once: near the critical angle the product
+of two of them is needed to its last bit.
 
 Materials ask for the mean of both polarisations, exact or by Schlick's approximation (Schlick 1994).
 """
@@ -17,6 +19,8 @@ def dielectric(cos, eta):
     cos: (N,) in [0, 1] between the direction and the normal on its own side. eta: (N,) index behind the
     surface over index in front. Beyond the critical angle Rs = Rp = 1 and the refracted cosine is 0.
     """
+    dtype = np.result_type(cos, eta)
+    cos, eta = np.asarray(cos, np.float64), np.asarray(eta, np.float64)
     contrast = (eta - 1.0) * (eta + 1.0)
     square = contrast + cos * cos  # (eta cos_t)^2
     total = square <= 0.0
@@ -31,7 +35,7 @@ def dielectric(cos, eta):
     same = contrast == 0.0
     rs = np.where(same, 0.0, np.minimum(s * s, 1.0))
     rp = np.where(same, 0.0, np.minimum(p * p, 1.0))
-    return rs, rp, np.where(same, cos, g / eta)
+    return rs.astype(dtype), rp.astype(dtype), np.where(same, cos, g / eta).astype(dtype)
 
 
 def conductor(cos, eta, k):
@@ -39,6 +43,8 @@ def conductor(cos, eta, k):
 
     cos: (N,) in [0, 1]. eta, k: (C, N) or (C, 1), relative to the medium in front.
     """
+    dtype = np.result_type(cos, eta)
+    cos, eta, k = (np.asarray(v, np.float64) for v in (cos, eta, k))
     cos2 = cos * cos
     sin2 = 1.0 - cos2
     eta2, k2 = eta * eta, k * k
@@ -46,11 +52,11 @@ def conductor(cos, eta, k):
     a2b2 = np.sqrt(t0 * t0 + 4.0 * eta2 * k2)
     a = np.sqrt(np.maximum(0.5 * (a2b2 + t0), 0.0))
     s_sum, s_part = a2b2 + cos2, 2.0 * cos * a
-    least = np.finfo(np.result_type(cos, eta)).tiny  # an index of exactly 1 at a cosine of 0 has sums of 0
+    least = np.finfo(np.float64).tiny  # an index of exactly 1 at a cosine of 0 has sums of 0
     rs = (s_sum - s_part) / np.maximum(s_sum + s_part, least)
     p_sum, p_part = cos2 * a2b2 + sin2 * sin2, s_part * sin2
     rp = rs * (p_sum - p_part) / np.maximum(p_sum + p_part, least)
-    return np.clip(rs, 0.0, 1.0), np.clip(rp, 0.0, 1.0)
+    return np.clip(rs, 0.0, 1.0).astype(dtype), np.clip(rp, 0.0, 1.0).astype(dtype)
 
 
 def dielectric_mean(cos, eta, formula="exact"):
