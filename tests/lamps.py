@@ -1,23 +1,15 @@
 """Scenes of one lamp over one point, and what the lamp sends there."""
 
-import json
-from functools import cache
-from pathlib import Path
-
+import checks
 import numpy as np
 
 import tracer
 from tracer import Settings
 from tracer.frame import dot
+from tracer.scene import Scene, Surface
+from tracer.shape.mesh import Mesh
 
 UP = np.array([0.0, 0.0, 1.0])
-
-
-@cache
-def truth():
-    """tests/truth.json by key."""
-    entries = json.loads((Path(__file__).parent / "truth.json").read_text(encoding="utf-8"))
-    return {entry["key"]: entry for entry in entries}
 
 
 def sensor(origin=(0, 0, 9), target=(0, 0, 0), side=1):
@@ -50,18 +42,42 @@ def scene(*objects, camera=None):
     return tracer.load_dict({"sensor": camera or sensor(), **named})
 
 
+def mesh(vertices, faces, flip_normals=False):
+    """A scene of triangles that shine with radiance 1 to the side from which they are counter-clockwise."""
+    definition = scene(sphere([0, 0, 0], 1.0)).definition
+    shape = Mesh("mesh", np.asarray(vertices, float), np.asarray(faces), flip_normals)
+    return Scene(definition._replace(surfaces=(Surface(shape, definition.surfaces[0].bsdf, np.ones(3)),)))
+
+
+def polygon(radius, height, sides):
+    """Vertices and faces of a regular polygon around the z axis that faces downwards.
+
+    What it sends is less than what the circle around it would send, and by no more than (pi/sides)^2 of that.
+    """
+    angle = np.arange(sides) * (2.0 * np.pi / sides)
+    rim = np.stack((radius * np.cos(angle), radius * np.sin(angle), np.full(sides, height)), axis=1)
+    faces = np.stack((np.zeros(sides, int), 1 + np.roll(np.arange(sides), -1), 1 + np.arange(sides)), axis=1)
+    return np.concatenate(([[0.0, 0.0, height]], rim)), faces
+
+
+def disk(radius, height):
+    """A scene of one disk, a polygon of 720 sides: within 2e-5."""
+    return mesh(*polygon(radius, height, 720))
+
+
 def numbers(seed, n, dtype, rows=3):
     """Numbers (rows, n) in [0, 1) as the sampler gives them."""
     bits = 24 if dtype == np.float32 else 32
     return (np.random.default_rng(seed).integers(0, 2**bits, (rows, n)) * 2.0**-bits).astype(dtype)
 
 
-def light_samples(of, point, seed, n=100_000, precision=64, by="solid_angle"):
-    """Light samples for a receiver at `point`, and the scene that gave them."""
+def light_samples(of, point, seed, n=100_000, precision=64, by="solid_angle", u=None):
+    """n light samples for a receiver at `point` (3,), or one for each of points (3, n). u: numbers (3, n)."""
     of = of.at(Settings(precision=precision, light_sampling=by))
-    p = np.repeat(np.asarray(point, float)[:, None], n, axis=1).astype(of.dtype)
+    point = np.asarray(point, float)
+    p = np.repeat(point[:, None], n, axis=1) if point.ndim == 1 else point
     with np.errstate(all="ignore"):
-        return of.sample_light(p, numbers(seed, n, of.dtype))
+        return of.sample_light(p.astype(of.dtype), numbers(seed, n, of.dtype) if u is None else u)
 
 
 def irradiance(light, normal=UP):
@@ -70,6 +86,44 @@ def irradiance(light, normal=UP):
     brought = np.divide(light.Le[0] * cos, light.pdf, out=np.zeros(cos.shape), where=light.pdf > 0.0)
     assert np.isfinite(brought).all()
     return brought
+
+
+# One receiver under a square lamp (accuracy.md 2.6): half side, height, place of the receiver along x.
+ROOMS = {
+    "small": (0.5, 2.0, 0.0),
+    "offset": (0.5, 1.0, 2.0),
+    "near": (1.0, 0.25, 0.0),
+    "touching": (2.0, 0.05, 0.0),
+}
+
+
+def floor(reflectance=1.0):
+    """A large diffuse floor."""
+    bsdf = {"type": "diffuse", "reflectance": reflectance}
+    return {"type": "rectangle", "to_world": [{"scale": 50}], "bsdf": bsdf}
+
+
+def room(name):
+    """A white floor under the lamp, and a camera low over the floor that sees one point of it."""
+    half, height, x = ROOMS[name]
+    lamp = rectangle([0, 0, height], [half, 0, 0], [0, half, 0], towards=[0, 0, 0])
+    return scene(lamp, floor(), camera=sensor([x + 0.03, 0.02, 0.02], [x, 0, 0]))
+
+
+def radiance_samples(seed, of, strategy, by, spp, precision=64, **options):
+    """Samples (spp,) of the one pixel of a scene, all through its centre."""
+    settings = Settings(
+        spp=spp, seed=seed, strategy=strategy, light_sampling=by, precision=precision, jitter=False,
+        roulette="off", **{"max_depth": 2, **options},
+    )  # fmt: skip
+    return checks.samples(of, settings)[0, 0]
+
+
+def variance_and_error(samples):
+    """Variance, and its own relative standard error."""
+    off = samples - samples.mean()
+    square = (off**2).mean()
+    return square, np.sqrt(((off**4).mean() / square**2 - 1) / samples.size)
 
 
 def close(samples, value, sigmas=4.0, bar=0.01, slack=0.0):

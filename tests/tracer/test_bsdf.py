@@ -1,25 +1,13 @@
 """Every BSDF keeps the same promises; adding one to bsdf.ALL tests it.
 
-Sampling is tested by chi-square over a grid of the sphere, at a significance of 1 % shared out by Sidak's
-formula among all materials, directions and precisions.
+That its samples follow their density is in test_densities.
 """
 
 import numpy as np
 import pytest
-from stats import chi_square, sidak
+from examples import DIRAC, EVERY, EXAMPLES, SMOOTH, column, names
 
-from tracer.bsdf import (
-    ALL,
-    Conductor,
-    Dielectric,
-    Diffuse,
-    Plastic,
-    RoughConductor,
-    RoughDielectric,
-    RoughPlastic,
-    ThinDielectric,
-    TwoSided,
-)
+from tracer.bsdf import ALL, Diffuse
 from tracer.bsdf.table import BsdfTable
 from tracer.events import LOBES
 
@@ -29,77 +17,12 @@ pytestmark = pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
 DTYPES = (np.float32, np.float64)
 
 
-def column(*values):
-    return np.array(values, np.float64).reshape(3, 1)
-
-
-def rough(alpha_u, alpha_v):
-    return np.array([alpha_u]), np.array([alpha_v])
-
-
-GOLD = column(0.2, 0.92, 1.1), column(3.9, 2.45, 2.14)
-EXAMPLES = {
-    Diffuse: [
-        Diffuse(column(0.9, 0.5, 0.1)),
-        Diffuse(column(0.9, 0.5, 0.1), hemisphere="uniform"),
-    ],
-    Conductor: [
-        Conductor(column(0.2, 0.92, 1.1), column(3.9, 2.45, 2.14), column(1, 1, 1)),
-        Conductor(column(1, 1, 1), column(np.inf, np.inf, np.inf), column(1, 0.8, 0.5)),
-    ],
-    Dielectric: [
-        Dielectric(np.array([1.5]), column(1, 1, 1), column(1, 1, 1)),
-        Dielectric(np.array([1 / 1.33]), column(1, 0.9, 0.8), column(0.7, 1, 1)),
-        Dielectric(np.array([1.0]), column(1, 1, 1), column(1, 1, 1)),
-        Dielectric(np.array([1.5]), column(1, 1, 1), column(1, 1, 1), "schlick"),
-    ],
-    RoughConductor: [
-        RoughConductor(*rough(0.3, 0.3), *GOLD, column(1, 1, 1)),
-        RoughConductor(*rough(0.4, 0.15), *GOLD, column(1, 1, 1), "beckmann"),
-        RoughConductor(*rough(0.2, 0.7), *GOLD, column(1, 0.8, 0.5), "ggx", "schlick"),
-    ],
-    RoughDielectric: [
-        RoughDielectric(*rough(0.5, 0.5), np.array([1.5]), column(1, 1, 1), column(1, 1, 1)),
-        RoughDielectric(
-            *rough(0.3, 0.6), np.array([1.33]), column(1, 0.9, 0.8), column(0.7, 1, 1), "beckmann"
-        ),
-        RoughDielectric(
-            *rough(0.4, 0.4), np.array([1 / 1.5]), column(1, 1, 1), column(1, 1, 1), "ggx", "schlick"
-        ),
-    ],
-    ThinDielectric: [ThinDielectric(np.array([1.5]), column(1, 0.9, 0.8), column(0.7, 1, 1))],
-    Plastic: [
-        Plastic.coated(np.array([1.5]), column(0.9, 0.5, 0.1), column(1, 1, 1)),
-        Plastic.coated(np.array([1.9]), column(1, 1, 1), column(1, 0.8, 0.5), True, "schlick"),
-        Plastic.coated(np.array([1 / 1.3]), column(0.9, 0.5, 0.1), column(1, 1, 1)),
-    ],
-    RoughPlastic: [
-        RoughPlastic.coated(np.array([0.3]), np.array([1.5]), column(1, 0.5, 0.1), column(1, 1, 1)),
-        RoughPlastic.coated(
-            np.array([0.5]), np.array([1.9]), column(1, 1, 1), column(1, 0.8, 0), True, "beckmann"
-        ),
-    ],
-}
-EXAMPLES[TwoSided] = [
-    TwoSided(EXAMPLES[Diffuse][0]),
-    TwoSided(EXAMPLES[Conductor][0]),
-    TwoSided(EXAMPLES[RoughConductor][1]),
-    TwoSided(EXAMPLES[Plastic][0]),
-]
-EVERY = [material for family in EXAMPLES.values() for material in family]
-SMOOTH = [material for material in EVERY if not material.delta]  # with lobes that are not Dirac ones
-DIRAC = [material for material in EVERY if material.delta]
 TILTS = (0.0, 0.7, 1.2, 1.55)  # angles of wo from the normal
-
-COLUMNS, ROWS = 16, 10  # of the grid: longitude, and cosine over the whole sphere
-N = 60_000
-CHI_TESTS = len(SMOOTH) * len(TILTS) * len(DTYPES)
 
 
 def over(materials):
     """A test of each of these materials."""
-    names = [f"{type(m).__name__}{k}" for k, m in enumerate(materials)]
-    return pytest.mark.parametrize("material", materials, ids=names)
+    return pytest.mark.parametrize("material", materials, ids=names(materials))
 
 
 every, smooth, dirac = over(EVERY), over(SMOOTH), over(DIRAC)
@@ -124,83 +47,8 @@ def directions(seed, n, dtype=np.float64):
     return (w / np.linalg.norm(w, axis=0)).astype(dtype)
 
 
-def grid_of(wi, wo):
-    """How many directions fall into each cell. The grid is made of signed roots, of the height and of the
-    longitude from the mirror direction's, so that cells are narrow where grazing lobes are."""
-    turn = np.arctan2(-wo[1, 0], -wo[0, 0])
-    longitude = np.remainder(np.arctan2(wi[1], wi[0]) - turn + np.pi, 2 * np.pi) / np.pi - 1.0
-    spread = [0.5 * np.copysign(np.sqrt(np.abs(x)), x) + 0.5 for x in (longitude, wi[2])]
-    return np.histogram2d(*spread, (COLUMNS, ROWS), ((0, 1), (0, 1)))[0]
-
-
-def cell_shares(pdf, wo):
-    """What a density puts into each cell, by Gauss-Legendre with 24 x 48 points a cell."""
-    (phi, w_phi), (height, w_height) = in_cells(COLUMNS, 24), in_cells(ROWS, 48)
-    (phi, w_phi), (z, w_z) = _square(phi, w_phi), _square(height, w_height)
-    phi, z = np.meshgrid(np.arctan2(-wo[1, 0], -wo[0, 0]) + np.pi * phi, z, indexing="ij")
-    phi, z, r = phi.ravel(), z.ravel(), np.sqrt(1 - z.ravel() ** 2)
-    density = pdf(np.stack((r * np.cos(phi), r * np.sin(phi), z))).reshape(w_phi.size, w_z.size)
-    share = density * (np.pi * w_phi)[:, None] * w_z
-    return share.reshape(COLUMNS, 24, ROWS, 48).sum(axis=(1, 3))
-
-
-def _square(t, weight):
-    """Nodes and weights over [0, 1] moved to x = s |s| over [-1, 1], s = 2 t - 1."""
-    s = 2 * t - 1
-    return s * np.abs(s), 4 * np.abs(s) * weight
-
-
-def in_cells(cells, points):
-    """Nodes and weights over [0, 1], `points` of them in each of `cells` equal parts."""
-    x, w = np.polynomial.legendre.leggauss(points)
-    return ((np.arange(cells)[:, None] + 0.5 * x + 0.5) / cells).ravel(), np.tile(0.5 * w / cells, cells)
-
-
-def follows(material, pdf, wo, u):
-    """p-value of sampled directions against a density, and the share of samples that carry nothing.
-
-    A density may integrate to less than 1: the rest is samples without one (below the surface, or of a
-    Dirac lobe), which are a cell of their own.
-    """
-    sample = material.sample(wo, u)
-    n = wo.shape[1]
-    shares = cell_shares(lambda wi: pdf(np.repeat(wo[:, :1], wi.shape[1], axis=1), wi), wo.astype(np.float64))
-    assert shares.sum() < 1.0 + 1e-3, "the density integrates to more than 1"
-    has = (sample.pdf > 0) & ~sample.delta
-    counts = np.append(
-        grid_of(sample.wi[:, has].astype(np.float64), wo.astype(np.float64)), n - np.count_nonzero(has)
-    )
-    rest = 1.0 - shares.sum()
-    if rest < 1e-3 and counts[-1] == 0:  # nothing is lost: what is missing is the integral's error
-        counts, rest, shares = counts[:-1], None, shares / shares.sum()
-    return chi_square(counts, n * (shares.ravel() if rest is None else np.append(shares, rest)))
-
-
 def test_every_bsdf_has_an_example_here():
     assert set(EXAMPLES) == set(ALL)
-
-
-@pytest.mark.slow
-@pytest.mark.statistical
-@both
-@pytest.mark.parametrize("tilt", TILTS)
-@smooth
-def test_sample_follows_pdf(suite_seed, material, tilt, dtype):
-    wo, u = tilted(tilt, N, dtype), numbers(suite_seed, N, dtype)
-    material = material.astype(dtype)
-    assert follows(material, material.pdf, wo, u) > sidak(CHI_TESTS)
-
-
-@pytest.mark.statistical
-def test_a_wrong_density_is_caught(suite_seed):
-    """The broken twin: cosine-weighted directions against a density that is 5 % uniform."""
-    material = SMOOTH[0]
-    wo, u = tilted(0.7, N), numbers(suite_seed, N, np.float64)
-
-    def flatter(wo, wi):
-        return 0.95 * material.pdf(wo, wi) + 0.05 * (wi[2] > 0) / (2 * np.pi)
-
-    assert follows(material, flatter, wo, u) < sidak(CHI_TESTS)
 
 
 @both

@@ -7,6 +7,8 @@ import lamps
 import numpy as np
 import pytest
 from stats import mean_and_error
+from truth import entry, keys
+from values.lights import from_rectangle
 
 import tracer
 from tracer import Settings
@@ -65,13 +67,13 @@ def test_s18_a_lamp_nearer_than_a_hair_stays_finite(suite_seed, d, precision):
         return
     key = f"rect.wall_touching_floor.d={'1e-4' if d == 1e-4 else '1e-6' if d == 1e-6 else '1e-12'}"
     assert (light.technique == TECHNIQUES.index("solid_angle")).all()
-    assert lamps.close(lamps.irradiance(light), lamps.truth()[key]["value"], slack=1e-5)
+    assert lamps.close(lamps.irradiance(light), entry(key)[1], slack=1e-5)
 
 
 @both
 def test_s19_a_lamp_edge_on_sends_nothing(suite_seed, precision):
-    value = lamps.truth()["rect.edge_on"]
-    lamp = lamps.rectangle(*(value["parameters"][k] for k in ("light_center", "half_u", "half_v")))
+    given, _ = entry("rect.edge_on")
+    lamp = lamps.rectangle(*(given[k] for k in ("light_center", "half_u", "half_v")))
     for by in ("area", "solid_angle"):
         light = lamps.light_samples(lamps.scene(lamp), [0, 0, 0], suite_seed, 20_000, precision, by)
         assert not lamps.irradiance(light).any() and not light.pdf.any() and not light.Le.any()
@@ -82,12 +84,11 @@ def test_s19_a_lamp_edge_on_sends_nothing(suite_seed, precision):
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("by", ["area", "solid_angle"])
-@pytest.mark.parametrize("key", [k for k in lamps.truth() if k.startswith(("rect.clipped", "rect.tilted"))])
+@pytest.mark.parametrize("key", keys("rect.clipped", "rect.tilted"))
 def test_s20_a_lamp_partly_below_the_horizon(suite_seed, key, by, precision):
-    given, value = lamps.truth()[key]["parameters"], lamps.truth()[key]["value"]
-    lamp = lamps.rectangle(*(given[k] for k in ("light_center", "half_u", "half_v")), towards=given["point"])
-    light = lamps.light_samples(lamps.scene(lamp), given["point"], suite_seed, 2_000_000, precision, by)
-    assert lamps.close(lamps.irradiance(light, given["normal"]), value, slack=1e-5)
+    given, value = entry(key)
+    found = from_rectangle(key, given, precision, suite_seed, 2_000_000, by)
+    assert lamps.close(found, value, slack=1e-5)
 
 
 @pytest.mark.statistical
@@ -95,7 +96,7 @@ def test_s20_a_lamp_partly_below_the_horizon(suite_seed, key, by, precision):
 def test_s22_a_lamp_that_fills_the_hemisphere(suite_seed, precision):
     lamp = lamps.rectangle([0, 0, 1], [1e4, 0, 0], [0, 1e4, 0], towards=[0, 0, 0])
     light = lamps.light_samples(lamps.scene(lamp), [0, 0, 0], suite_seed, 200_000, precision)
-    omega = lamps.truth()["solidangle.rect.centred.half=1e4x1e4.h=1"]["value"]
+    omega = entry("solidangle.rect.centred.half=1e4x1e4.h=1")[1]
     assert np.abs(1 / light.pdf.astype(float) / omega - 1).max() < {32: 3e-7, 64: 1e-12}[precision]
     # Float32 rounds points of so large a lamp to 1e-3 of its height.
     assert lamps.close(lamps.irradiance(light), np.pi, slack={32: 1e-3, 64: 1e-4}[precision])

@@ -1,47 +1,22 @@
 """Maps from the unit square and local frames: each map has the density it says, each frame is one.
 
-Densities are tested by chi-square at 1 %, shared out by Sidak's formula among the maps and precisions.
+That points are spread so is in test_densities.
 """
 
 import numpy as np
 import pytest
-from stats import chi_square, sidak, uniform
+from densities.warps import BACK
 
 from tracer import warp
 from tracer.frame import Frame, cross, dot, length
 
-N = 100_000
 DTYPES = (np.float32, np.float64)
-CONE = 0.3  # 1 - cos of its half angle
 
 
-def square(seed, dtype, n=N):
+def square(seed, dtype, n):
     bits = 24 if dtype == np.float32 else 32
     return (np.random.default_rng(seed).integers(0, 2**bits, (2, n)) * 2.0**-bits).astype(dtype)
 
-
-def longitude(w):
-    return np.arctan2(w[1], w[0]) / (2 * np.pi) % 1.0
-
-
-# Each map, and where its points land if they are carried back to the unit square by the known distribution.
-BACK = {
-    "concentric_disk": (
-        warp.concentric_disk,
-        lambda p: (longitude(p), p[0] ** 2 + p[1] ** 2),
-    ),
-    "cosine_hemisphere": (warp.cosine_hemisphere, lambda w: (longitude(w), 1 - w[2] ** 2)),
-    "uniform_hemisphere": (warp.uniform_hemisphere, lambda w: (longitude(w), w[2])),
-    "uniform_sphere": (warp.uniform_sphere, lambda w: (longitude(w), 0.5 * w[2] + 0.5)),
-    "uniform_cone": (
-        lambda u: warp.uniform_cone(u, u.dtype.type(CONE)),
-        lambda w: (longitude(w), (1 - w[2]) / CONE),
-    ),
-    "uniform_triangle": (
-        warp.uniform_triangle,
-        lambda b: ((1 - b[0]) ** 2, b[1] / np.maximum(1 - b[0], 1e-30)),
-    ),
-}
 
 DENSITIES = {
     "concentric_disk": (warp.concentric_disk_pdf, 1 / np.pi),
@@ -50,25 +25,6 @@ DENSITIES = {
 }
 
 both = pytest.mark.parametrize("dtype", DTYPES)
-
-
-@pytest.mark.statistical
-@both
-@pytest.mark.parametrize("name", BACK)
-def test_a_map_spreads_its_points_as_it_says(suite_seed, name, dtype):
-    there, back = BACK[name]
-    points = there(square(suite_seed, dtype))
-    assert points.dtype == dtype
-    landed = np.clip(np.stack(back(points.astype(np.float64))), 0.0, 1.0)
-    assert uniform(landed, 16) > sidak(len(BACK) * len(DTYPES))
-
-
-@pytest.mark.statistical
-def test_a_triangle_without_its_root_is_caught(suite_seed):
-    """The broken twin: u where sqrt(u) belongs."""
-    u = square(suite_seed, np.float64)
-    wrong = np.stack((1 - u[0], u[1] * u[0]))
-    assert uniform(np.stack(BACK["uniform_triangle"][1](wrong)), 16) < sidak(len(BACK) * len(DTYPES))
 
 
 @both
@@ -135,12 +91,3 @@ def test_to_local_and_back_is_the_same_direction(suite_seed, dtype):
     frame = Frame.around(n)
     assert np.abs(frame.to_world(frame.to_local(w)) - w).max() < 16 * np.finfo(dtype).eps
     assert np.array_equal(frame.to_local(w)[2], dot(n, w))
-
-
-def test_chi_square_is_calibrated(suite_seed):
-    """Of p-values of true hypotheses, 5 % are below 5 %: between 2.5 % and 8 % of 1000."""
-    rng = np.random.default_rng(suite_seed)
-    p = [uniform(rng.random((1, 2000)), 16) for _ in range(1000)]
-    assert 0.025 < np.mean(np.array(p) < 0.05) < 0.08
-    assert chi_square([0, 3, 5], [0.0, 4.0, 4.0]) > 0.0
-    assert chi_square([1, 3, 4], [0.0, 4.0, 4.0]) == 0.0
