@@ -66,6 +66,12 @@ def test_a_description_gives_its_material(description, kind):
     assert type(bsdf(description, "here")) is kind
 
 
+@pytest.mark.parametrize("kind", ["roughconductor", "roughdielectric", "roughplastic"])
+def test_a_rough_surface_about_which_nothing_is_said_is_that_of_mitsuba(kind):
+    facets = bsdf({"type": kind}, "here").facets
+    assert (facets.distribution, *facets.alpha_u, *facets.alpha_v) == ("beckmann", 0.1, 0.1)
+
+
 BAD = [
     ("dielectric", {"int_ior": 0}, ("int_ior", "0")),
     ("dielectric", {"int_ior": -1.5}, ("int_ior", "-1.5")),

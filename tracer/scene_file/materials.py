@@ -178,7 +178,7 @@ def _two_sided(table):
 
 def _roughness(table, anisotropic=True):
     """((alpha_u, alpha_v), distribution), (1,) each; None for the alphas of a perfectly smooth surface."""
-    distribution = one_of(table, "distribution", DISTRIBUTIONS)
+    distribution = one_of(table, "distribution", DISTRIBUTIONS, "beckmann")
     if table.take("sample_visible", True) is not True:
         raise TracerError(f"{table.place}.sample_visible: only true is supported")
     words = ["alpha"]

@@ -71,9 +71,9 @@ def switch(table, word, default):
     return value
 
 
-def one_of(table, word, known):
-    """One of the known words from a table of Words; the first where nothing is said."""
-    value = table.take(word, next(iter(known)))
+def one_of(table, word, known, default=None):
+    """One of the known words from a table of Words; `default`, or else the first, where nothing is said."""
+    value = table.take(word, default or next(iter(known)))
     if not isinstance(value, str) or value not in known:
         raise TracerError(
             f"{table.place}.{word}: {shown(value)} is not known; {near(value, known)}known: {listed(known)}"
