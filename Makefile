@@ -1,6 +1,6 @@
 # make run: the viewer on a Cornell box.  make test: every test.  make quick: those under a minute.
 # make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.
-# make accuracy: measures and writes ACCURACY.md.  make clean.
+# make accuracy: measures and writes ACCURACY.md.  make peers: compares with Mitsuba, likewise.  make clean.
 
 PYTHON ?= python3
 RUN := .venv/bin/python -m
@@ -11,7 +11,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds accuracy clean system
+.PHONY: run test quick check format seeds accuracy peers clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -40,6 +40,10 @@ seeds: .venv/.dev
 accuracy: .venv/.dev
 	.venv/bin/python tests/accuracy.py
 
+# The same scenes by castray and by Mitsuba 3. Half an hour; may be stopped and goes on where it was.
+peers: .venv/.peers
+	.venv/bin/python tests/peers.py
+
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find tracer viewer lessons scenes tests -name __pycache__ -prune -exec rm -rf {} +
@@ -60,3 +64,7 @@ system:
 .venv/.dev: pyproject.toml constraints.txt | .venv/bin/python
 	$(RUN) pip install -q -e '.[dev]'
 	@touch $@ .venv/.run
+
+.venv/.peers: .venv/.dev
+	$(RUN) pip install -q -e '.[dev,peers]'
+	@touch $@

@@ -36,6 +36,7 @@ A figure is the sum of independent chunks; chunk k has the seed {SEED} + 1000 k.
 or intervals, all chunks together. 0 of N seen means below 3 / N with 95 % confidence. The last column is the
 commit that was measured, with a + where files differed from it.
 """
+PEERS = re.compile("<!-- peers -->\n.*?<!-- /peers -->\n", re.DOTALL)  # a part that `make peers` writes
 TABLE = """
 | name | figure | precision | N | found | asked | others | at |
 |---|---|---|---|---|---|---|---|
@@ -114,21 +115,28 @@ def line(figure, sums, chunks, at=("?",)):
     return "| " + " | ".join((*cells, " ".join(at))) + " |"
 
 
+def text_of(path):
+    """What a file says; nothing if it is not there."""
+    return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
 def lines_of(path):
     """The lines of tables that a file has, by the figures' names."""
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
-    return {found[1]: found[0] for found in re.finditer(r"^\| `([^`]+)` \|.*$", text, re.MULTILINE)}
+    return {found[1]: found[0] for found in re.finditer(r"^\| `([^`]+)` \|.*$", text_of(path), re.MULTILINE)}
 
 
-def page(lines):
-    """ACCURACY.md from the lines by name; figures without one are left out, families without any too."""
+def page(lines, old=""):
+    """ACCURACY.md from the lines by name; figures without one are left out, families without any too.
+
+    old: the page as it was, whose comparison with a peer stays.
+    """
     text = HEAD
     for family in FAMILIES:
         rows = [lines[figure.key] for figure in family.figures() if figure.key in lines]
         if rows:
             notes = family.notes() if hasattr(family, "notes") else ""
             text += f"\n## {family.TITLE}\n{TABLE}" + "\n".join(rows) + "\n" + notes
-    return text
+    return text + "".join("\n" + part for part in PEERS.findall(old))
 
 
 def main():
@@ -147,7 +155,7 @@ def main():
                 found = measure(figure, KEPT, asked.share, lambda text: print(text, flush=True), pool)
                 lines[figure.key] = line(figure, *found)
                 print(lines[figure.key], flush=True)
-                asked.out.write_text(page(lines), encoding="utf-8")
+                asked.out.write_text(page(lines, text_of(asked.out)), encoding="utf-8")
     sys.exit(any("**missed**" in row for row in lines.values()))
 
 

@@ -82,4 +82,10 @@ def test_everything_needed_is_pinned_and_installed_as_pinned():
 def test_nothing_is_pinned_that_is_not_needed():
     elsewhere = {"colorama"}  # Windows
     newer = {"typing-extensions", "tzdata"}  # asked for by some Pythons only
-    assert pins().keys() - needed(declared("dev")) <= elsewhere | newer
+    peers = {"drjit", "mitsuba"}  # installed by `make peers` only
+    assert pins().keys() - needed(declared("dev")) <= elsewhere | newer | peers
+
+
+def test_the_peer_is_installed_as_pinned_if_it_is():
+    pytest.importorskip("mitsuba")
+    assert {name: metadata.version(name) for name in needed(declared("peers"))}.items() <= pins().items()
