@@ -5,8 +5,9 @@ import numpy as np
 
 import tracer
 from tracer import Settings
+from tracer.definition import Surface
 from tracer.frame import dot
-from tracer.scene import Scene, Surface
+from tracer.scene import Scene
 from tracer.shape.mesh import Mesh
 
 UP = np.array([0.0, 0.0, 1.0])
