@@ -118,6 +118,23 @@ def test_s23_a_receiver_on_a_sphere_and_one_inside(suite_seed, precision):
 
 
 @both
+@pytest.mark.parametrize("by", ["area", "solid_angle"])
+@pytest.mark.parametrize("strategy", ["light", "mis"])
+@pytest.mark.parametrize("place", [([0, 0, 0], 1.0), ([5.07, 0.15, -6.24], 0.1), ([100, 20, 30], 1.0)])
+def test_s23_a_ball_that_shines_and_reflects_does_not_light_itself(place, strategy, by, precision):
+    """A point on it, by rounding inside or outside, is lit by no other point of it."""
+    center, radius = place
+    ball = lamps.sphere(center, radius, bsdf={"type": "diffuse", "reflectance": 1.0})
+    camera = lamps.sensor(np.add(center, [0, 0, 3 * radius]), center, side=12)
+    picture = tracer.render(
+        lamps.scene(ball, camera=camera),
+        Settings(spp=16, max_depth=4, precision=precision, strategy=strategy, light_sampling=by),
+    )
+    assert picture.dropped == 0 and picture.rgb.max() == 1.0
+    assert (picture.rgb[4:8, 4:8] == 1.0).all()
+
+
+@both
 def test_s25_a_black_lamp_beside_others_is_never_chosen(suite_seed, precision):
     black = lamps.sphere([0, 0, 3], 0.5, 0.0)
     point = {"type": "point", "position": [0, 0, 2], "intensity": 0.0}

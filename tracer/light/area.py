@@ -128,7 +128,10 @@ class AreaLights:
             if lanes.size:
                 omega = seen(p.take(lanes, axis=1), face[lanes])
                 usable = omega > 0.0
-                density[lanes] = np.where(usable, 1.0 / omega, density[lanes])
+                by_area = (
+                    density[lanes] if technique == SOLID_ANGLE else 0.0
+                )  # no light from a sphere on itself
+                density[lanes] = np.where(usable, 1.0 / omega, by_area)
         return density * self._chance.take(face)
 
     def _drawn(self, p, u, face):
@@ -157,8 +160,10 @@ class AreaLights:
             sphere_here = self._sphere[face]
             around = warp.uniform_sphere(np.stack((u, v)))
             out = p - corner
-            # A sphere that shines inwards is dark from outside, though its far side would face the receiver.
-            hidden = sphere_here & (nq[0] < 0.0) & (np.sqrt(dot(out, out)) > e1[0] + self._slack[face])
+            # A sphere that shines inwards is dark from outside, though its far side would face the receiver;
+            # one that shines outwards is dark inside and on itself, where rounding alone gives a direction.
+            within = np.sqrt(dot(out, out)) <= e1[0] + self._slack[face]
+            hidden = sphere_here & ((nq[0] > 0.0) == within)
             q = np.where(sphere_here, corner + e1[0] * around, q)
             nq = np.where(sphere_here, nq[0] * around, nq)
             density = np.where(hidden, 0.0, density).astype(p.dtype)
@@ -179,9 +184,11 @@ class AreaLights:
         return np.broadcast_to(technique, omega.shape), q, self._n[:, face], density
 
     def _by_cone(self, p, u, face):
-        """Points of spheres in the cone in which they are seen; by area from inside."""
+        """Points of spheres in the cone in which they are seen; by area, and dark, on them and inside."""
         _, q, nq, density = self._by_area(p, u, face)
-        q_cone, n_cone, least = sphere.uniform_cone(p, self._corner[:, face], self._e1[0, face], u)
+        q_cone, n_cone, least = sphere.uniform_cone(
+            p, self._corner[:, face], self._e1[0, face], u, self._slack[face]
+        )
         usable = least > 0.0
         density = np.where(usable, warp.uniform_cone_pdf(least), density).astype(p.dtype)
         q, nq = np.where(usable, q_cone, q), np.where(usable, n_cone, nq)
@@ -203,7 +210,9 @@ class AreaLights:
     def _cone(self, p, face):
         """Solid angle (N,) of spheres that are sampled by their cone, 0 of the others."""
         out = p - self._corner[:, face]
-        return (2.0 * np.pi) * sphere.one_minus_cos(self._e1[0, face], np.sqrt(dot(out, out)))
+        return (2.0 * np.pi) * sphere.one_minus_cos(
+            self._e1[0, face], np.sqrt(dot(out, out)), self._slack[face]
+        )
 
 
 def scattered(parts, n):

@@ -5,18 +5,20 @@ import numpy as np
 from tracer.frame import Frame, dot
 
 
-def one_minus_cos(radius, distance):
+def one_minus_cos(radius, distance, slack=0.0):
     """1 - cos of the cone's half angle, (N,), for receivers at `distance` (N,) from the centre; 0 inside and
-    on the sphere, where there is no cone.
+    on the sphere, where there is no cone. On it are also those within `slack` of it.
 
     sin^2 / (1 + cos) keeps the digits that 1 - cos loses for small or distant spheres.
     """
     sine = radius / distance
     square = np.maximum((distance - radius) * (distance + radius), 0.0) / (distance * distance)
-    return np.where(distance > radius, sine * sine / (1.0 + np.sqrt(square)), 0.0).astype(distance.dtype)
+    return np.where(distance > radius + slack, sine * sine / (1.0 + np.sqrt(square)), 0.0).astype(
+        distance.dtype
+    )
 
 
-def uniform_cone(p, center, radius, u):
+def uniform_cone(p, center, radius, u, slack=0.0):
     """Points of spheres and the normals there, both (3, N), and the cones' 1 - cos, (N,).
 
     p: (3, N) receivers; center: (3, N or 1); u: (2, N). The normal is found from the sine of the direction:
@@ -25,7 +27,7 @@ def uniform_cone(p, center, radius, u):
     """
     out = p - center
     distance = np.sqrt(dot(out, out))
-    least = one_minus_cos(radius, distance)
+    least = one_minus_cos(radius, distance, slack)
     drop = u[0] * least
     sin, cos = np.sqrt(drop * (2.0 - drop)), 1.0 - drop
     sin_most = radius / distance
