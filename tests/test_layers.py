@@ -34,6 +34,7 @@ FLOORS = {
     "tracer.material_bench": 2,
     "tracer.definition": 2,
     "tracer.medium": 2,
+    "tracer.resolution": 2,
     "tracer.scene": 3,
     "tracer.scene_file": 4,
     "tracer.integrator": 4,

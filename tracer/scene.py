@@ -10,6 +10,8 @@ from tracer.frame import Frame, dot, length, put
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
+from tracer.resolution import refusal
+from tracer.settings import TracerError
 from tracer.shape.arrange import arrange
 from tracer.shape.chart import Charts
 from tracer.shape.rays import Rays, error_bound, leave
@@ -63,13 +65,22 @@ class Scene:
         self._others = {}
 
     def at(self, settings):
-        """The same scene for these settings' precision and ways of sampling."""
-        wanted = settings.dtype, settings.hemisphere, settings.light_sampling
-        if wanted == (self.dtype, self.hemisphere, self.light_sampling):
-            return self
-        if wanted not in self._others:
-            self._others[wanted] = Scene(self.definition, *wanted)
-        return self._others[wanted]
+        """The same scene for these settings' precision and ways of sampling.
+
+        TracerError if that precision cannot hold it: where it is too far from the origin for its size.
+        """
+        wanted, ready = (settings.dtype, settings.hemisphere, settings.light_sampling), self
+        if wanted != (self.dtype, self.hemisphere, self.light_sampling):
+            if wanted not in self._others:
+                self._others[wanted] = Scene(self.definition, *wanted)
+            ready = self._others[wanted]
+        if ready._refusal:
+            raise TracerError(ready._refusal)
+        return ready
+
+    @cached_property
+    def _refusal(self):
+        return refusal(self.definition, self.dtype)
 
     def _prepare_planes(self):
         planes = [shape.planes() for shape in self.shapes]

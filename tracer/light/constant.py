@@ -18,6 +18,11 @@ class Constant:
 
     technique = SOLID_ANGLE
 
+    @property
+    def light(self):
+        """What it sends, (3,): its radiance."""
+        return self.colour
+
     def power(self, ball):
         """What enters the scene's ball, (3,) in W."""
         return np.pi * self.colour * (4.0 * np.pi * ball.radius**2)

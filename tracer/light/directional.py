@@ -18,6 +18,11 @@ class Directional:
 
     technique = DELTA
 
+    @property
+    def light(self):
+        """What it sends, (3,): its irradiance."""
+        return self.irradiance
+
     def power(self, ball):
         """What falls onto the disk that the scene's ball shows it, (3,) in W."""
         return np.pi * ball.radius**2 * self.irradiance

@@ -52,6 +52,11 @@ class Envmap:
         for name, table in tables.items():
             object.__setattr__(self, f"_{name}", table)
 
+    @property
+    def light(self):
+        """What it sends at most, (3,): the brightest radiance of each channel."""
+        return self.image.max(axis=(0, 1))
+
     def power(self, ball):
         """What enters the scene's ball, (3,) in W; of its luminance in each channel."""
         return np.full(3, np.pi * ball.radius**2 * self._total)

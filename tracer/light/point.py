@@ -18,6 +18,11 @@ class Point:
 
     technique = DELTA
 
+    @property
+    def light(self):
+        """What it sends, (3,): its intensity."""
+        return self.intensity
+
     def power(self, ball):
         """4 pi I, (3,) in W."""
         return 4.0 * np.pi * self.intensity

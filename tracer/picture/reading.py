@@ -113,7 +113,9 @@ def _read_other(path, dtype, raw):
 
 
 def _read_exr(path, dtype):
-    if path.stat().st_size < 4 or path.open("rb").read(4) != b"\x76\x2f\x31\x01":
+    with path.open("rb") as file:
+        mark = file.read(4)
+    if mark != b"\x76\x2f\x31\x01":
         raise TracerError(f"{path}: is not an OpenEXR picture")
     import OpenEXR
 

@@ -11,6 +11,7 @@ from tracer.scene_file.to_world import to_world
 from tracer.scene_file.words import Words, colour, real, shown, triple
 from tracer.settings import TracerError
 
+BRIGHTEST = 1e30  # radiance: what a path makes of it still fits into single precision
 EMITTERS = ("point", "directional", "constant", "envmap")
 
 
@@ -41,7 +42,7 @@ def area_emitter(description, place):
         raise TracerError(
             f"{place}.type: {shown(description['type'])} is not supported on a shape; known: area"
         )
-    radiance = colour(table.take("radiance"), f"{place}.radiance")
+    radiance = colour(table.take("radiance"), f"{place}.radiance", BRIGHTEST)
     table.finish()
     return radiance
 
@@ -72,7 +73,7 @@ def _directional(table):
 
 
 def _constant(table):
-    return Constant(table.place, colour(table.take("radiance", 1.0), f"{table.place}.radiance"))
+    return Constant(table.place, colour(table.take("radiance", 1.0), f"{table.place}.radiance", BRIGHTEST))
 
 
 def _envmap(table, folder):

@@ -3,6 +3,7 @@
     name, primitives                number of flat faces (or 1 for a sphere)
     planes() -> (normals (3, K), offsets (K,))   the plane n . x = c of each flat face
     area() -> (K,)                  area of each primitive in m^2
+    across                          its size in metres, for the precision that has to resolve it
     triangles() -> (vertices (V, 3), faces (F, 3))   for drawing
     chart() -> Chart                coordinates (u, v) on each flat face; a sphere has uv_at and tangent_at
     outline() -> (3, 4, K)          corners of each primitive

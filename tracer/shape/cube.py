@@ -37,6 +37,11 @@ class Cube:
         n = -n if self.flip_normals else n
         return n, (n * on_face).sum(axis=0)
 
+    @property
+    def across(self):
+        """Its shortest edge in metres."""
+        return 2.0 * np.linalg.norm(self.to_world[:3, :3], axis=0).min()
+
     def area(self):
         """Area of each face in m^2, (6,)."""
         _, e1, e2 = self.parallelograms()

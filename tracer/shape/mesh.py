@@ -54,6 +54,11 @@ class Mesh:
         n = -n if self.flip_normals else n
         return n, (n * self.vertices[self.faces[:, 0]].T).sum(axis=0)
 
+    @property
+    def across(self):
+        """Its largest extent along an axis in metres."""
+        return np.ptp(self.vertices, axis=0).max()
+
     def area(self):
         """Area of each triangle in m^2, (F,)."""
         return 0.5 * np.linalg.norm(self._cross(), axis=1)

@@ -39,6 +39,12 @@ class Rectangle:
         n = -n if self.flip_normals else n
         return n, np.array([n[:, 0] @ self.centre])
 
+    @property
+    def across(self):
+        """Harmonic mean of its two sides in metres: twice the area over half the rim."""
+        first, second = (np.linalg.norm(edge) for edge in self.edges)
+        return 4.0 * first * second / (first + second)
+
     def area(self):
         """Area in m^2, (1,)."""
         e1, e2 = self.edges

@@ -32,6 +32,11 @@ class Sphere:
         """A sphere has no plane: zeros."""
         return np.zeros((3, 1)), np.zeros(1)
 
+    @property
+    def across(self):
+        """Its diameter in metres."""
+        return 2.0 * self.radius
+
     def area(self):
         """4 pi r^2, (1,)."""
         return np.array([4.0 * np.pi * self.radius**2])

@@ -1,0 +1,74 @@
+"""Stress case S63: single against double precision, path by path, with the same random numbers.
+
+Two paths are the same if they meet the same primitives, choose the same lobes, get light from the same points
+of the same lamps, play roulette alike and end alike. Of those that are, the light is compared pixel by pixel.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cases import INTEGRATORS, loaded, slow_but
+
+import tracer
+from lessons import zoo
+from tracer import Settings
+from tracer.engine import waves
+from tracer.integrator.wave import Wave
+
+SIDE, SPP = 32, 16
+TELLING = {  # what decides where a path goes, by kind of event
+    "hit": lambda c: c["primitive"],
+    "light": lambda c: 2 * c["primitive"] + (c["contribution"] > 1e-20).any(axis=0),  # f may underflow
+    "bounce": lambda c: c["lobe"],
+    "roulette": lambda c: c["survived"],
+    "end": lambda c: c["reason"],
+}
+MIX = np.uint64(6364136223846793005)  # (Knuth 1997), of a linear congruential generator
+
+
+def walked(scene, settings, steps=zoo.RIGHT):
+    """A number (N,) that stands for the way each path of a picture took, and its radiance (3, N)."""
+    scene = scene.at(settings)
+    pixel, sample = np.divmod(np.arange(SIDE * SIDE * SPP), SPP)
+    wave = Wave(pixel % SIDE, pixel // SIDE, sample, settings, steps)
+    way = np.zeros(pixel.size, np.uint64)
+    for event in waves.events(scene, settings, wave):
+        if event.kind.name in TELLING:
+            chosen = TELLING[event.kind.name](event.columns).astype(np.int64) + 3
+            way[event.lane] = way[event.lane] * MIX + chosen.astype(np.uint64)
+    assert wave.dropped == 0 and np.isfinite(wave.radiance).all() and (wave.radiance >= 0).all()
+    return way, wave.radiance.astype(np.float64)
+
+
+def compared(scene, settings, steps=zoo.RIGHT):
+    """Share of paths that go the same way in both precisions, and the mean relative difference of pixels."""
+    ways, radiances = zip(
+        *(walked(scene, replace(settings, precision=bits), steps) for bits in (32, 64)), strict=True
+    )
+    same = ways[0] == ways[1]
+    single, double = ((r * same).reshape(3, -1, SPP).sum(axis=2) for r in radiances)
+    lit = double > 0.0
+    return same.mean(), np.abs(single[lit] / double[lit] - 1.0).mean()
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("name", slow_but(tracer.built_in_scenes(), "furnace", "cornell_unit"))
+def test_s63_both_precisions_walk_the_same_paths(suite_seed, name, integrator):
+    if integrator == "walk" and loaded(name).unmeetable:
+        return  # refused, with lamps that no ray meets
+    settings = Settings(width=SIDE, height=SIDE, spp=SPP, seed=suite_seed, integrator=integrator)
+    same, difference = compared(loaded(name), settings)
+    assert same > 0.999 and difference < 1e-5
+
+
+def coarse(scene, hit, wi):
+    """Rays that start where half precision would put them."""
+    return hit.p.astype(np.float16).astype(hit.p.dtype) if hit.p.dtype == np.float32 else hit.p, wi
+
+
+def test_s63_a_precision_that_is_not_enough_is_seen(suite_seed):
+    """The broken twin."""
+    settings = Settings(width=SIDE, height=SIDE, spp=SPP, seed=suite_seed, max_depth=4)
+    same, difference = compared(loaded("cornell_unit"), settings, zoo.changed(next_ray=coarse))
+    assert not (same > 0.999 and difference < 1e-5)
