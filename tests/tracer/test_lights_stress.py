@@ -6,6 +6,7 @@ import checks
 import lamps
 import numpy as np
 import pytest
+import trimesh
 from stats import mean_and_error
 from truth import entry, keys
 from values.lights import from_rectangle
@@ -36,20 +37,53 @@ def floor(**more):
     }
 
 
+WALLS = {
+    "rectangle": ({"type": "rectangle"}, [{"scale": 5}]),
+    "cube": ({"type": "cube"}, [{"scale": 5}, {"translate": [0, 0, -5]}]),
+    "mesh": ({"type": "ply", "filename": "box.ply"}, [{"scale": 5}, {"translate": [0, 0, -5]}]),
+}
+PLACES = {
+    "here": [],
+    "turned": [{"rotate": [1, 2, 3], "angle": 33}],
+    "far": [{"rotate": [1, 2, 3], "angle": 33}, {"translate": [70.3, -7.3, 31.7]}],
+}
+
+
+def lamp_in_a_wall(kind, place, order, folder):
+    """A lamp in the plane of a wall's face, seen at a slant; its camera sees nothing else."""
+    trimesh.creation.box((2, 2, 2)).export(folder / "box.ply")
+    shape, there = WALLS[kind]
+    wall = {**shape, "to_world": [*there, *place], "bsdf": GREY}
+    lamp = {"type": "rectangle", "to_world": place, "emitter": {"type": "area", "radiance": 3.0}}
+    look = {"look_at": {"origin": [0.3, -2, 4], "target": [0, 0, 0], "up": [0, 1, 0.1]}}
+    camera = lamps.sensor(side=8) | {"fov": 15, "to_world": [look, *place]}
+    objects = {"a": lamp, "b": wall} if order == "lamp first" else {"a": wall, "b": lamp}
+    return tracer.load_dict({"sensor": camera, **objects}, folder=folder)
+
+
 @both
 @pytest.mark.parametrize("order", ["lamp first", "wall first"])
-def test_s16_a_lamp_in_the_plane_of_a_wall_is_seen_before_it(suite_seed, order, precision):
-    """The rule: among surfaces at exactly the same distance the one that shines is met."""
-    lamp, wall = lamps.rectangle([0, 0, 0], [1, 0, 0], [0, 1, 0], radiance=3.0), floor()
-    objects = [lamp, wall] if order == "lamp first" else [wall, lamp]
-    camera = lamps.sensor([0.3, -2, 4], [0, 0, 0], side=8)
-    camera["fov"] = 15
-    scene = lamps.scene(*objects, camera=camera)
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("kind", WALLS)
+def test_s16_a_lamp_in_the_plane_of_a_wall_is_seen_before_it(
+    suite_seed, tmp_path, kind, place, order, precision
+):
+    """The rule: of a lamp and another face that only rounding tells apart the lamp is met, from its front."""
+    scene = lamp_in_a_wall(kind, PLACES[place], order, tmp_path)
     for seed in range(8):
         radiance = checks.samples(
             scene, Settings(spp=1, seed=suite_seed + seed, max_depth=1, precision=precision)
         )
         assert (radiance == 3.0).all()
+
+
+def test_s16_without_the_rule_rounding_decides(suite_seed, tmp_path):
+    """The broken twin."""
+    scene = lamp_in_a_wall("cube", PLACES["here"], "wall first", tmp_path).at(Settings(precision=64))
+    kernels = scene._arrangement.closest
+    kernels[:] = [getattr(kernel, "kernel", kernel) for kernel in kernels]
+    radiance = checks.samples(scene, Settings(spp=1, seed=suite_seed, max_depth=1, precision=64))
+    assert {0.0, 3.0} == set(np.unique(radiance))
 
 
 @pytest.mark.statistical

@@ -11,10 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.shape import room
+from tracer.shape.rays import linear
 from tracer.shape.rectangle import Rectangle
 from tracer.shape.sphere import Sphere
 
 _SLACK = 1e-9  # relative: what lies behind a plane by less lies in it
+_HAIR = (
+    32.0  # machine epsilons of the largest coordinates: more than rounding makes of the distance to a plane
+)
 
 
 class Arrangement(NamedTuple):
@@ -35,13 +39,14 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
     all primitives, (3, 4, P).
     """
     kernels = [shape.kernel(int(k), extent, dtype, corners) for shape, k in zip(shapes, first, strict=True)]
-    # Lamps first: of surfaces at exactly the same distance the first is met, so that one in the plane of a
-    # wall is seen before it.
+    # Lamps first: of surfaces at exactly the same distance the first is met.
     order = sorted(range(len(shapes)), key=lambda k: not shining[k])
     sides = room.find(shapes, sealed)
     walls = () if sides is None else tuple(k for k in sides if k >= 0)
     order = [k for k in order if k not in walls]
-    closest = [kernels[k] for k in order]
+    closest = [
+        _ahead_of_walls(kernels[k], shapes, k, extent, dtype) if shining[k] else kernels[k] for k in order
+    ]
     harmless = () if elsewhere else tuple(_harmless(shapes, shining, walls))
     blocking = [partial(_blocks, kernels[k]) for k in order if k not in harmless]
     never = False
@@ -52,6 +57,37 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
         closest.insert(sum(bool(shining[k]) for k in order), box)
         blocking.append(box.blocks)
     return Arrangement(closest, blocking, walls, never, harmless)
+
+
+class InAWall:
+    """A flat lamp in the plane of another face: from its front it is met a hair before that face.
+
+    The hair is what rounding may make of the distance between the two, so that neither rounding nor the order
+    of the shapes decides which is seen.
+    """
+
+    def __init__(self, kernel, n, hair):
+        self.kernel, self.n, self.hair = kernel, n, hair
+
+    def closest(self, rays, within=np.inf):
+        """Distance along each ray, inf or NaN for a miss, and the primitive."""
+        t, primitive = self.kernel.closest(rays, within)
+        return np.maximum(t + self.hair / linear(self.n, rays.d), 0.0), primitive
+
+
+def _ahead_of_walls(kernel, shapes, lamp, extent, dtype):
+    """The kernel of shape number `lamp`, as InAWall if it is a rectangle in the plane of another face."""
+    if not isinstance(shapes[lamp], Rectangle):
+        return kernel
+    (n,), (c,) = (np.moveaxis(a, -1, 0) for a in shapes[lamp].planes())
+    hair = dtype(_HAIR * np.finfo(dtype).eps * (np.abs(n).sum() * extent + abs(c)))
+    corners = _corners(shapes[lamp])
+    for k, shape in enumerate(shapes):
+        if k != lamp and not isinstance(shape, Sphere):
+            n_wall, c_wall = shape.planes()
+            if (np.abs(n_wall.T @ corners - c_wall[:, None]) <= hair).all(axis=1).any():
+                return InAWall(kernel, tuple(dtype(v) for v in n), hair)
+    return kernel
 
 
 def _blocks(kernel, rays, distance):
