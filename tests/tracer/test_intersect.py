@@ -182,8 +182,8 @@ def test_no_ray_falls_between_two_rectangles_that_share_an_edge(suite_seed, shif
 
 @both
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("name", ["cornell", "cornell_unit", "cornell_glass", "furnace"])
-def test_a_ray_that_is_none_meets_nothing(name, bad, dtype):
+@pytest.mark.parametrize("name", ["cornell", "cornell_unit", "cornell_glass", "furnace", "smooth_ball"])
+def test_s48_a_ray_that_is_none_meets_nothing(name, bad, dtype):
     scene = loaded(name).at(Settings(precision=dtype().itemsize * 8))
     good_o, good_d = np.array([0.1, 0.2, 0.3]), np.array([0.6, 0.0, -0.8])
     o, d = [], []

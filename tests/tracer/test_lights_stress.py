@@ -179,6 +179,9 @@ def test_s25_a_black_lamp_beside_others_is_never_chosen(suite_seed, precision):
     light = lamps.light_samples(scene, [0, 0, 0], suite_seed, 1000, precision)
     assert (light.pick == 1.0).all() and (light.light == 0).all() and (light.Le[0] == 1.0).all()
     tracer.render(scene, Settings(width=4, height=4, spp=1, integrator="walk", max_depth=3))  # nothing unmet
+    alone = lamps.scene(black, point, sky, floor())
+    picture = tracer.render(alone, Settings(width=4, height=4, spp=4, precision=precision))
+    assert not alone.light_names and not picture.rgb.any() and picture.dropped == 0
 
 
 @both

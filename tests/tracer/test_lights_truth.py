@@ -52,7 +52,7 @@ MEANS = {"small": 0.0734776, "offset": 0.0139237, "near": 0.951424, "touching": 
 @pytest.mark.slow
 @pytest.mark.statistical
 @pytest.mark.parametrize(("name", "strategy", "by"), VARIANCES)
-def test_the_variance_is_the_one_known(suite_seed, name, strategy, by):
+def test_s18_the_variance_is_the_one_known(suite_seed, name, strategy, by):
     """Within 5 %, which is at least 4 standard errors of the variance."""
     rare = (name, strategy) == ("touching", "bsdf")  # a bounce in 2000 misses the lamp
     spp = 1 << (21 if rare else 18)

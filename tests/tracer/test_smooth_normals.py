@@ -23,6 +23,7 @@ LAMP = {
     "to_world": [{"rotate": [1, 0, 0], "angle": 90}, {"translate": [0, 3, 1]}],
     "emitter": {"type": "area", "radiance": 5.0},
 }
+both = pytest.mark.parametrize("precision", [32, 64])
 SETTINGS = tracer.Settings(spp=16, seed=suite_seed(), max_depth=6)
 
 
@@ -62,11 +63,14 @@ def test_stored_normals_are_interpolated_and_made_unit_again(tmp_path):
             assert out @ hit["n"] > 0.999  # the flat ones reach 0.98 only
 
 
-def test_the_length_of_stored_normals_does_not_matter(tmp_path):
+@both
+def test_s46_the_length_of_stored_normals_does_not_matter(tmp_path, precision):
     ball(tmp_path)
-    unit = tracer.render(scene(tmp_path), SETTINGS).rgb
-    ball(tmp_path, normals=lambda n: 2.0 * n)
-    assert (tracer.render(scene(tmp_path), SETTINGS).rgb == unit).all()
+    settings = replace(SETTINGS, precision=precision)
+    unit = tracer.render(scene(tmp_path), settings).rgb
+    for length in (2.0, 2.0**-20):
+        ball(tmp_path, normals=lambda n, length=length: length * n)
+        assert (tracer.render(scene(tmp_path), settings).rgb == unit).all()
 
 
 def test_stretching_a_mesh_gives_no_vertex_more_weight_than_another(tmp_path):
@@ -76,16 +80,18 @@ def test_stretching_a_mesh_gives_no_vertex_more_weight_than_another(tmp_path):
     assert np.abs(np.linalg.norm(stretched.normals, axis=1) - 1.0).max() < 1e-12
 
 
+@both
 @pytest.mark.parametrize("broken", [0.0, float("nan")])
-def test_normals_that_are_none_fall_back_to_the_geometric_one_s46(tmp_path, broken):
+def test_s46_normals_that_are_none_fall_back_to_the_geometric_one(tmp_path, broken, precision):
     ball(tmp_path)
-    flat = tracer.render(scene(tmp_path, face_normals=True), SETTINGS)
+    settings = replace(SETTINGS, precision=precision)
+    flat = tracer.render(scene(tmp_path, face_normals=True), settings)
     vertices, faces = (np.asarray(a) for a in scene(tmp_path).shapes[1].triangles())
     definition = scene(tmp_path).definition
     mesh = Mesh("mesh", vertices, faces, normals=np.full(vertices.shape, broken))
     surfaces = (definition.surfaces[0], definition.surfaces[1]._replace(shape=mesh))
     broken_scene = type(scene(tmp_path))(definition._replace(surfaces=surfaces))
-    picture = tracer.render(broken_scene, SETTINGS)
+    picture = tracer.render(broken_scene, settings)
     assert picture.dropped == 0 and (picture.rgb == flat.rgb).all()
 
 

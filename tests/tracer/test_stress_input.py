@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import pytest
 import tracer
 from tracer import Settings, TracerError
 from tracer.integrator.steps import RIGHT
+from viewer.cli import _report
 
 CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 FACES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
@@ -138,8 +140,9 @@ def test_s48_a_field_of_view_just_within_its_limits_is_a_picture(precision, fov)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_s49_a_broken_sample_is_dropped_and_counted_and_reported(precision, wrong):
+def test_s49_a_broken_sample_is_dropped_and_counted_and_reported(precision, wrong, capsys, tmp_path):
     """A throughput that is no number for some of the paths: the picture is that of the others."""
 
     def broken(beta, sample, cos):
@@ -149,12 +152,20 @@ def test_s49_a_broken_sample_is_dropped_and_counted_and_reported(precision, wron
 
     scene = tracer.load_dict(changed("sensor.film", {"width": 16, "height": 12}))
     settings = Settings(spp=4, max_depth=4, precision=precision)
-    with np.errstate(all="ignore"):
-        picture = tracer.render(scene, settings, steps=dataclasses.replace(RIGHT, throughput=broken))
+    steps = dataclasses.replace(RIGHT, throughput=broken)
+    picture = tracer.render(scene, settings, steps=steps)
     good = tracer.render(scene, settings)
     assert np.isfinite(picture.rgb).all() and (picture.rgb >= 0).all()
     assert picture.dropped > 0 and good.dropped == 0
     assert (picture.rgb <= good.rgb).all(), "a dropped sample counts as 0"
+    assert not (picture.rgb == good.rgb).all()
+    y, x = np.argwhere((picture.rgb < good.rgb).all(axis=2))[0]
+    ends = [p.end for p in tracer.inspect(scene, settings, x, y, steps=steps).paths]
+    assert "invalid" in ends
+    _report(scene, picture, tmp_path / "out.exr", as_json=False)
+    assert f"{picture.dropped} samples were not finite and count as 0" in capsys.readouterr().out
+    _report(scene, picture, tmp_path / "out.exr", as_json=True)
+    assert json.loads(capsys.readouterr().out)["dropped"] == picture.dropped
 
 
 WRONG = [

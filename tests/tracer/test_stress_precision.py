@@ -24,7 +24,7 @@ TELLING = {  # what decides where a path goes, by kind of event
     "roulette": lambda c: c["survived"],
     "end": lambda c: c["reason"],
 }
-MIX = np.uint64(6364136223846793005)  # (Knuth 1997), of a linear congruential generator
+MIX = np.uint64(6364136223846793005)  # odd and large: no step is forgotten
 
 
 def walked(scene, settings, steps=zoo.RIGHT):

@@ -122,7 +122,7 @@ TILED = Settings(width=14, height=14, spp=50, max_depth=4)
 def sheet_of(results, sheet=None):
     sheet = sheet or film.Film(TILED.width * TILED.height)
     for result in results:
-        sheet.add(slice(result.task.start, result.task.stop), result.block)
+        waves.collect(sheet, result)
     return sheet
 
 
