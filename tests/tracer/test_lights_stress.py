@@ -80,7 +80,7 @@ def test_s16_a_lamp_in_the_plane_of_a_wall_is_seen_before_it(
 def test_s16_without_the_rule_rounding_decides(suite_seed, tmp_path):
     """The broken twin."""
     scene = lamp_in_a_wall("cube", PLACES["here"], "wall first", tmp_path).at(Settings(precision=64))
-    kernels = scene._arrangement.closest
+    kernels = scene.arrangement.closest
     kernels[:] = [getattr(kernel, "kernel", kernel) for kernel in kernels]
     radiance = checks.samples(scene, Settings(spp=1, seed=suite_seed, max_depth=1, precision=64))
     assert {0.0, 3.0} == set(np.unique(radiance))

@@ -122,16 +122,14 @@ class AreaLights:
         to_light = q - p
         square = dot(to_light, to_light)
         density = self._pdf_area.take(face) * square * np.sqrt(square) / np.abs(dot(n, to_light))
-        way = self._way.take(face)
-        for technique, seen in ((SOLID_ANGLE, self._solid_angle), (CONE, self._cone)):
-            lanes = np.flatnonzero(way == technique)
-            if lanes.size:
-                omega = seen(p.take(lanes, axis=1), face[lanes])
-                usable = omega > 0.0
-                by_area = (
-                    density[lanes] if technique == SOLID_ANGLE else 0.0
-                )  # no light from a sphere on itself
-                density[lanes] = np.where(usable, 1.0 / omega, by_area)
+        if self._only != AREA:
+            way = self._way.take(face)
+            for technique, seen in ((SOLID_ANGLE, self._solid_angle), (CONE, self._cone)):
+                lanes = np.flatnonzero(way == technique)
+                if lanes.size:
+                    omega = seen(p.take(lanes, axis=1), face[lanes])
+                    dark = density[lanes] if technique == SOLID_ANGLE else 0.0  # on a sphere
+                    density[lanes] = np.where(omega > 0.0, 1.0 / omega, dark)
         return density * self._chance.take(face)
 
     def _drawn(self, p, u, face):
