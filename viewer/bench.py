@@ -48,11 +48,10 @@ class Study:
 
     def label(self, one):
         """What an estimator is called here: its sampler and precision only where there are several."""
-        more = [
-            str(getattr(one, name))
-            for name in ("sampler", "precision")
-            if len({getattr(other, name) for other in self.willing}) > 1
-        ]
+        several = {name for name in one._fields if len({getattr(other, name) for other in self.willing}) > 1}
+        more = [str(getattr(one, name)) for name in ("sampler", "precision") if name in several]
+        if one.adaptive != "off":
+            more.append(f"adaptive {one.adaptive}")
         return ", ".join((one.name, *more))
 
 
@@ -62,6 +61,7 @@ def bench(
     strategy: Words = None,
     sampler: Words = None,
     precision: Annotated[list[int] | None, WholeNumbers] = None,
+    adaptive: Words = None,
     spp: Annotated[list[int] | None, WholeNumbers] = None,
     seeds: Annotated[int, Whole] = 5,
     reference: Path | None = None,
@@ -88,6 +88,8 @@ def bench(
         This one, or several.
     precision
         This one, or several.
+    adaptive
+        Where the samples go, off, mse or relmse as in `castray render`, or several (default: off).
     spp
         Samples per pixel, one or several (default: 4 16 64).
     seeds
@@ -111,7 +113,7 @@ def bench(
     for one in spps:
         replace(base, spp=one, seed=measured[-1])  # TracerError where that cannot be
     found = efficiency.estimators(
-        *(tuple(words or ()) for words in (integrator, strategy, sampler, precision))
+        *(tuple(words or ()) for words in (integrator, strategy, sampler, precision, adaptive))
     )
     studies = []
     for scene in map(tracer.load, scenes):
@@ -178,7 +180,7 @@ def _willing(study, estimators, steps):
 
     willing = []
     for one in estimators:
-        why = efficiency.refusal(study.scene, one, study.base, steps)
+        why = efficiency.refusal(study.scene, one, study.base, study.spps[0], steps)
         if why:
             study.skipped.append((one, why))
         else:

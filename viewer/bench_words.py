@@ -14,10 +14,10 @@ def as_dict(studies, out=None):
     beside every time. memory_is: what memory means. out: the picture, or null. scenes, each with: scene,
     width, height, workers, seeds (those measured), settings (all that is not measured), complete,
     notes (sentences); reference: origin, rmse and rel_mse (its own error, taken off; null if it is not
-    known), seconds (null if it was read); skipped: name, sampler, precision, reason; and estimators, each
-    with name, integrator, strategy, sampler, precision, memory (bytes), slope (s of RMSE ~ N^s) and points:
-    spp; seconds, rmse and rel_mse (median, smallest, largest of the seeds), efficiency (1 / (time x MSE) of
-    the medians), resolved (whether its error is above the reference's own), paths_per_second,
+    known), seconds (null if it was read); estimators, each with name, integrator, strategy, sampler,
+    precision, adaptive; skipped: the same and a reason. Of estimators also memory (bytes), slope (s of
+    RMSE ~ N^s) and points: spp; seconds, rmse and rel_mse (median, smallest, largest of the seeds),
+    efficiency (1 / (time x MSE) of the medians), resolved (above the reference's own), paths_per_second,
     rays_per_second, kernel (seconds, median), dropped (samples), and runs: seed, seconds, kernel, mse,
     rel_mse. null stands where there is no error to be seen.
     """
@@ -36,7 +36,7 @@ MEMORY = "most bytes that Python and NumPy held at once in one untimed render wi
 
 def _scene_dict(study):
     settings = study.base.as_dict()
-    for name in ("width", "height", "seed", "spp", *efficiency.Estimator._fields):
+    for name in ("width", "height", "seed", "spp", *efficiency.MEASURED):
         settings.pop(name)
     reference, known = study.reference, study.reference.variance is not None
     return {
@@ -54,10 +54,7 @@ def _scene_dict(study):
             "rel_mse": reference.rel_mse if known else None,
             "seconds": study.made.seconds if study.made else None,
         },
-        "skipped": [
-            {"name": one.name, "sampler": one.sampler, "precision": one.precision, "reason": why}
-            for one, why in study.skipped
-        ],
+        "skipped": [{"name": one.name, **one._asdict(), "reason": why} for one, why in study.skipped],
         "estimators": [_estimator_dict(study, one, points) for one, points in study.curves.items()],
     }
 

@@ -120,6 +120,30 @@ def test_samplers_and_precisions_are_named_where_there_are_several(bench):
     assert code == 0 and "walk, 32 " in out and "walk, 64 " in out
 
 
+def test_samples_may_go_where_the_error_is(bench):
+    few = (
+        "--size",
+        "6",
+        "4",
+        "--max-depth",
+        "2",
+        "--seeds",
+        "1",
+        "--integrator",
+        "path",
+        "--strategy",
+        "mis",
+    )
+    asked = ("--adaptive", "off", "--adaptive", "mse")
+    code, out, _ = bench("cornell_unit", *few, *asked, "--spp", "32", "48", "--json")
+    even, adaptive = json.loads(out)["scenes"][0]["estimators"]
+    assert code == 0 and (even["adaptive"], adaptive["adaptive"]) == ("off", "mse")
+    assert all(a["rmse"] != b["rmse"] for a, b in zip(even["points"], adaptive["points"], strict=True))
+    code, out, _ = bench("cornell_unit", *few, *asked, "--spp", "4", "48")
+    assert code == 0 and "left out: path-mis, adaptive mse: spp: 4; adaptive works in blocks" in out
+    assert "path-mis alone was measured" in out
+
+
 def test_a_bug_is_measured_against_the_right_picture(bench):
     words = (
         "furnace",
@@ -215,6 +239,7 @@ def test_ctrl_c_before_anything_is_done(bench, monkeypatch):
         (("furnace", "--strategy", "guess"), "strategy: 'guess'"),
         (("furnace", "--sampler", "guess"), "sampler: 'guess'"),
         (("furnace", "--precision", "16"), "precision: 16"),
+        (("furnace", "--adaptive", "guess"), "adaptive: 'guess'"),
         (("furnace", "--spp", "0"), "spp: 0"),
         (("furnace", "--spp", "4", "many"), "'many'"),
         (("furnace", "--seeds", "0"), "seeds: 0"),

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.engine import render
+from tracer.engine.plan import GOALS
 from tracer.film import BLOCK
 from tracer.integrator import ALL as INTEGRATORS
 from tracer.integrator.steps import RIGHT
@@ -21,6 +22,7 @@ from tracer.settings import Settings, TracerError
 from tracer.testing.errors import SMALL
 from tracer.testing.machine import kernel_seconds, peak_bytes
 
+MEASURED = ("integrator", "strategy", "sampler", "precision")  # the Settings that make an Estimator
 TRIAL = 8  # pixels: side of the picture that shows whether a scene refuses an estimator
 
 
@@ -31,6 +33,7 @@ class Estimator(NamedTuple):
     strategy: str
     sampler: str
     precision: int
+    adaptive: str = "off"  # which of engine.plan.GOALS render is asked for
 
     @property
     def name(self):
@@ -39,36 +42,45 @@ class Estimator(NamedTuple):
 
     def settings(self, base, **more):
         """The settings `base` with this estimator, and `more` of them changed."""
-        return replace(base, **self._asdict(), **more)
+        return replace(base, **{name: getattr(self, name) for name in MEASURED}, **more)
+
+    def render(self, scene, base, progress=None, workers=1, steps=RIGHT, **more):
+        """A picture by this estimator, with `more` of the settings `base` changed."""
+        settings = self.settings(base, **more)
+        return render(scene, settings, progress, workers, steps, adaptive=self.adaptive)
 
 
-def estimators(integrators=(), strategies=(), samplers=(), precisions=()):
+def estimators(integrators=(), strategies=(), samplers=(), precisions=(), adaptives=()):
     """Every Estimator of these words; where none are given, all integrators and strategies there are, and of
-    samplers and precisions the default.
+    the others the default.
 
     A strategy is path's: with strategies and no integrators, path alone.
     """
-    choices = {name: Settings.__dataclass_fields__[name] for name in Estimator._fields}
+    choices = {name: Settings.__dataclass_fields__[name] for name in MEASURED}
     integrators = integrators or (("path",) if strategies else tuple(INTEGRATORS))
     strategies = strategies or choices["strategy"].metadata["choices"]
     samplers = samplers or (choices["sampler"].default,)
     precisions = precisions or (choices["precision"].default,)
+    unknown = [word for word in adaptives if word not in GOALS]
+    if unknown:
+        raise TracerError(f"adaptive: {unknown[0]!r} is not known; choose one of {', '.join(GOALS)}")
     found = [
-        Estimator(integrator, strategy, sampler, precision)
+        Estimator(integrator, strategy, sampler, precision, adaptive)
         for integrator in integrators
         for strategy in (strategies if integrator == "path" else ("mis",))
         for sampler in samplers
         for precision in precisions
+        for adaptive in adaptives or GOALS[:1]
     ]
     for one in found:
         one.settings(Settings())  # TracerError for a word that is not known
     return list(dict.fromkeys(found))
 
 
-def refusal(scene, estimator, base, steps=RIGHT):
-    """Why the scene refuses an estimator, in one line; None if it does not."""
+def refusal(scene, estimator, base, spp=1, steps=RIGHT):
+    """Why the scene refuses an estimator, or it so few samples, in one line; None if it does not."""
     try:
-        render(scene, estimator.settings(base, width=TRIAL, height=TRIAL, spp=1), steps=steps)
+        estimator.render(scene, base, steps=steps, width=TRIAL, height=TRIAL, spp=spp)
     except TracerError as error:
         return str(error)
     return None
@@ -115,7 +127,7 @@ def long_render(scene, base, spp, workers=1, progress=None):
     KeyboardInterrupt where it was stopped.
     """
     right = Estimator("path", "mis", "independent", base.precision)
-    picture = render(scene, right.settings(base, spp=spp, bug=None), progress, workers)
+    picture = right.render(scene, base, progress, workers, spp=spp, bug=None)
     if not picture.complete:
         raise KeyboardInterrupt
     return picture
@@ -143,12 +155,12 @@ def measure(scene, estimators, base, spps, seeds, reference, workers=1, steps=RI
     KeyboardInterrupt where it was stopped.
     """
     for one in estimators:  # what happens once, such as making the scene ready, is not what is timed
-        render(scene, one.settings(base, spp=min(spps)), workers=workers, steps=steps)
+        one.render(scene, base, workers=workers, steps=steps, spp=min(spps))
     for seed in seeds:
         for spp in spps:
             for one in estimators:
                 kernel = kernel_seconds()
-                picture = render(scene, one.settings(base, spp=spp, seed=seed), workers=workers, steps=steps)
+                picture = one.render(scene, base, workers=workers, steps=steps, spp=spp, seed=seed)
                 if not picture.complete:
                     raise KeyboardInterrupt
                 mse, rel_mse = reference.errors(picture.rgb)
@@ -159,10 +171,9 @@ def measure(scene, estimators, base, spps, seeds, reference, workers=1, steps=RI
 def memory(scene, estimator, base, spp, steps=RIGHT):
     """Most bytes that one untimed render in this process holds at once.
 
-    More samples than a block of the film do not take more, so no more are rendered.
+    More samples than two blocks of the film do not take more, so no more are rendered.
     """
-    settings = estimator.settings(base, spp=min(spp, BLOCK))
-    return peak_bytes(lambda: render(scene, settings, steps=steps))
+    return peak_bytes(lambda: estimator.render(scene, base, steps=steps, spp=min(spp, 2 * BLOCK)))
 
 
 class Point(NamedTuple):
