@@ -1,6 +1,7 @@
 # make run: the viewer on a Cornell box.  make test: every test.  make quick: those under a minute.
 # make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.
 # make accuracy: measures and writes ACCURACY.md.  make peers: compares with Mitsuba, likewise.  make clean.
+# make bench: measures and writes BENCHMARKS.md.  make race: the part of it with Mitsuba.
 
 PYTHON ?= python3
 RUN := .venv/bin/python -m
@@ -11,7 +12,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds accuracy peers clean system
+.PHONY: run test quick check format seeds accuracy peers bench race clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -43,6 +44,14 @@ accuracy: .venv/.dev
 # The same scenes by castray and by Mitsuba 3. Half an hour; may be stopped and goes on where it was.
 peers: .venv/.peers
 	.venv/bin/python tests/peers.py
+
+# A quarter of an hour on an idle machine; sections measured at this commit are not measured again.
+bench: .venv/.dev
+	.venv/bin/python tests/bench.py
+
+# The same long; may be stopped and goes on where it was.
+race: .venv/.peers
+	.venv/bin/python tests/race.py
 
 clean:
 	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

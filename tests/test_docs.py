@@ -11,7 +11,7 @@ import pytest
 from suite import ROOT, castray
 from test_layers import FLOORS
 
-PAPERS = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md")
+PAPERS = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md", "BENCHMARKS.md")
 SHELLS = ("sh", "bash", "console")
 
 

@@ -1,0 +1,73 @@
+"""The sections of BENCHMARKS.md, in its order. `tests/bench.py` measures all but the race."""
+
+from benchmarks import looking, programs, scaling, stages
+from benchmarks.section import Section
+
+BENCH = (
+    Section(
+        "stages",
+        "Where the time goes",
+        "Samples of what one process is at, a few milliseconds of processor time apart, in percent. A\n"
+        "moment belongs to the first line of which a function is under way.",
+        stages.measure,
+    ),
+    Section(
+        "lanes",
+        "Paths in a wave",
+        "The unit box, 128 x 128, 16 spp, depth 8, one process, with waves of different sizes. Memory is\n"
+        "the most that Python and NumPy held at once.",
+        scaling.lanes,
+    ),
+    Section(
+        "samples",
+        "Samples per pixel",
+        "The unit box, 128 x 128, depth 8, one process.",
+        scaling.samples,
+    ),
+    Section(
+        "depth",
+        "Longest path",
+        "The unit box, 128 x 128, 16 spp, one process.",
+        scaling.depth,
+    ),
+    Section(
+        "triangles",
+        "Triangles",
+        "The unit box with a sphere of triangles in place of the tall box, 128 x 128, 16 spp, depth 8, one\n"
+        "process.",
+        scaling.triangles,
+    ),
+    Section(
+        "lamps",
+        "Lamps",
+        "The unit box with many small rectangles under the ceiling, as bright together as its lamp,\n"
+        "128 x 128, 16 spp, depth 8, one process.",
+        scaling.lamps,
+    ),
+    Section(
+        "start",
+        "Starting",
+        "Whole processes from the shell, and imports as a fresh interpreter measures them; medians of 9, by\n"
+        "turns.",
+        programs.start,
+    ),
+    Section(
+        "whole",
+        "From the shell to a picture",
+        "`castray render`, depth 8, as a process of its own: start, scene, picture and PNG together.",
+        programs.whole,
+    ),
+    Section(
+        "recorder",
+        "Recording",
+        "The unit box, 128 x 128, 16 spp, depth 8, one process: a plain render, and the same loop with\n"
+        "every event looked at and dropped.",
+        looking.recorder,
+    ),
+    Section(
+        "pick",
+        "Picking and stepping",
+        "Picks at 16 spp, of 25 pixels, and steps along a picked path, as the viewer's server does them.",
+        looking.pick,
+    ),
+)

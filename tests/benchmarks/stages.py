@@ -1,0 +1,100 @@
+"""Where the time of a render goes: samples of what one process is at, hundreds of times a second."""
+
+import signal
+from collections import Counter
+
+import tracer
+from benchmarks import scenes
+from benchmarks.section import in_turn, settings, short, table
+
+EVERY = 1e-3  # seconds of processor time between two samples; many systems only manage 4e-3
+REST = "everything else"
+# A moment belongs to the first of these of which a function is under way, by file and start of its name.
+STAGES = (
+    ("random numbers", ("tracer/sampler",)),
+    ("film", ("tracer/film.py", "tracer/engine/waves.py:collect")),
+    ("shadow rays", ("tracer/scene.py:Scene.occluded",)),
+    ("camera", ("tracer/camera.py", "tracer/integrator/wave.py:Wave.begin")),
+    ("intersect", ("tracer/scene.py:Scene.intersect",)),
+    (
+        "hit",
+        ("tracer/scene.py:Scene.hit", "tracer/scene.py:Scene.emission", "tracer/scene.py:Scene.environment"),
+    ),
+    ("light sample", ("tracer/scene.py:Scene.sample_light",)),
+    ("bsdf and frames", ("tracer/bsdf/", "tracer/frame.py:Frame")),
+    ("lanes that leave", ("tracer/integrator/wave.py:Wave.stop", "tracer/integrator/wave.py:Wave.end")),
+    ("bounce: throughput, roulette, next ray", ("tracer/integrator/stages.py:go_on",)),
+    ("light term and weights", ("tracer/integrator/stages.py:", "tracer/integrator/steps.py:")),
+    ("the loop itself", ("tracer/integrator/",)),
+)  # fmt: skip
+
+
+def stage(frame):
+    """The stage that a stack of frames is in."""
+    stack = []
+    while frame is not None:
+        code = frame.f_code
+        stack.append(f"{code.co_filename.replace(chr(92), '/')}:{code.co_qualname}")
+        frame = frame.f_back
+    return next((name for name, marks in STAGES if any(_marked(place, marks) for place in stack)), REST)
+
+
+def _marked(place, marks):
+    return any(f"/{mark}" in place for mark in marks)
+
+
+def profile(work):
+    """{stage: samples} of work(), by processor time."""
+    counts = Counter()
+
+    def look(_, frame):
+        counts[stage(frame)] += 1
+
+    before = signal.signal(signal.SIGPROF, look)
+    signal.setitimer(signal.ITIMER_PROF, EVERY, EVERY)
+    try:
+        work()
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+    return counts
+
+
+def measure(size, say):
+    """The table of stages for three scenes, in percent, and what a path costs in each."""
+    asked, spp = settings(size), size.spps[-2]
+    found = {
+        "cornell_unit": scenes.box(),
+        "cornell_glass": tracer.load("cornell_glass"),
+        f"{20 * 4**size.brute:,} triangles": scenes.box_with(scenes.ball(size.brute)),
+    }
+    works = {name: _render(scene, settings(size, spp=spp)) for name, scene in found.items()}
+    times = in_turn(works, size.repeats, say)
+    shares, paths = {}, spp * size.side**2
+    for name, scene in found.items():
+        say(f"profile of {name}")
+        shares[name] = _long_profile(scene, asked, size.moments)
+    rows = [
+        {"stage": one} | {name: _percent(of_one[one], of_one) for name, of_one in shares.items()}
+        for one in (*(name for name, _ in STAGES), REST)
+    ]
+    per_path = {name: f"{short(1e6 * t.median / paths)} µs" for name, t in times.items()}
+    rows.append({"stage": "one path, one process"} | per_path)
+    rows.append({"stage": "kernel ms"} | {name: t.kernel for name, t in times.items()})
+    return table(rows)
+
+
+def _render(scene, asked):
+    return lambda: tracer.render(scene, asked).seconds
+
+
+def _long_profile(scene, asked, wanted):
+    """Samples of as many renders as give so many of them."""
+    counts = Counter()
+    while counts.total() < wanted:
+        counts += profile(lambda: tracer.render(scene, asked))
+    return counts
+
+
+def _percent(count, counts):
+    return f"{100.0 * count / max(counts.total(), 1):.1f} %"
