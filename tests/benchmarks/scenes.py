@@ -7,7 +7,8 @@ import numpy as np
 from meshes import icosphere
 
 import tracer
-from tracer.scene import Scene, Surface
+from tracer.definition import Surface
+from tracer.scene import Scene
 from tracer.shape import Mesh
 
 
