@@ -33,7 +33,7 @@ BENCH = (
     Section(
         "triangles",
         "Triangles",
-        "The unit box with a sphere of triangles in place of the tall box, 128 x 128, 16 spp, depth 8, one\n"
+        "The unit box with a sphere of triangles in place of the tall box, 128 x 128, 4 spp, depth 8, one\n"
         "process.",
         scaling.triangles,
     ),

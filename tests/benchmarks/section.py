@@ -25,7 +25,9 @@ class Size:
     depths: tuple = (1, 2, 4, 8, 16, 32, -1)
     levels: tuple = (3, 4, 5, 6, 7, 8)  # subdivisions of an icosahedron: 20 * 4^level triangles
     brute: int = 6  # the level at which the tree is held against every triangle in turn
-    brute_rays: int = 2048
+    brute_rays: int = 1024
+    mesh_spp: int = 4  # of pictures with meshes, which take long
+    mesh_repeats: int = 3
     lamps: tuple = (1, 10, 100, 1000)
     starts: int = 9  # of a program
     wholes: tuple = (("cornell_unit", 128, 64), ("cornell", 784, 16))  # scene, side, spp
@@ -37,7 +39,8 @@ class Size:
 FULL = Size()
 TINY = Size(
     side=8, spp=2, repeats=1, moments=5, lanes=(64, 128), spps=(1, 2), depths=(1, 2), levels=(0, 1), brute=1,
-    brute_rays=16, lamps=(1, 2), starts=1, wholes=(("furnace", 4, 1),), whole_repeats=1, picks=1, steps=2,
+    brute_rays=16, mesh_spp=1, mesh_repeats=1, lamps=(1, 2), starts=1, wholes=(("furnace", 4, 1),),
+    whole_repeats=1, picks=1, steps=2,
 )  # fmt: skip
 
 

@@ -62,23 +62,22 @@ def profile(work):
 
 def measure(size, say):
     """The table of stages for three scenes, in percent, and what a path costs in each."""
-    asked, spp = settings(size), size.spps[-2]
+    asked, few = settings(size), settings(size, spp=size.mesh_spp)
     found = {
-        "cornell_unit": scenes.box(),
-        "cornell_glass": tracer.load("cornell_glass"),
-        f"{20 * 4**size.brute:,} triangles": scenes.box_with(scenes.ball(size.brute)),
+        "cornell_unit": (scenes.box(), asked),
+        "cornell_glass": (tracer.load("cornell_glass"), asked),
+        f"{20 * 4**size.brute:,} triangles": (scenes.box_with(scenes.ball(size.brute)), few),
     }
-    works = {name: _render(scene, settings(size, spp=spp)) for name, scene in found.items()}
-    times = in_turn(works, size.repeats, say)
-    shares, paths = {}, spp * size.side**2
-    for name, scene in found.items():
+    times = in_turn({name: _render(*one) for name, one in found.items()}, size.repeats, say)
+    shares, per_path = {}, {}
+    for name, (scene, asked) in found.items():
         say(f"profile of {name}")
         shares[name] = _long_profile(scene, asked, size.moments)
+        per_path[name] = f"{short(1e6 * times[name].median / (asked.spp * size.side**2))} µs"
     rows = [
         {"stage": one} | {name: _percent(of_one[one], of_one) for name, of_one in shares.items()}
         for one in (*(name for name, _ in STAGES), REST)
     ]
-    per_path = {name: f"{short(1e6 * t.median / paths)} µs" for name, t in times.items()}
     rows.append({"stage": "one path, one process"} | per_path)
     rows.append({"stage": "kernel ms"} | {name: t.kernel for name, t in times.items()})
     return table(rows)
