@@ -16,9 +16,10 @@ What castray takes in time and memory, written by `make bench` and, for the race
 python tests/bench.py --again --only NAME
 ```
 
-Times are medians. *kernel ms* beside a time is what a fixed computation took just before
-({KERNEL}): a time divided by it can be held against that of another hour or
-machine. *asked* is what castray asks of itself. No test holds a time.
+Times are medians. *kernel ms* beside a time is what a fixed computation took just before: a time divided
+by it can be held against that of another hour or machine. It is
+{KERNEL}.
+*asked* is what castray asks of itself. No test holds a time.
 """
 NOT_YET = "Not measured yet."
 

@@ -7,7 +7,6 @@ import numpy as np
 from meshes import icosphere
 
 import tracer
-from tracer.definition import Surface
 from tracer.scene import Scene
 from tracer.shape import Mesh
 
@@ -27,8 +26,8 @@ def ball(level):
 def definition_with(mesh):
     """The definition of the box with a mesh in place of the tall box."""
     made = box().definition
-    others = tuple(s for s in made.surfaces if s.shape.name != "tall_box")
-    return made._replace(surfaces=(*others, Surface(mesh, "white")), source=None)
+    surfaces = (s._replace(shape=mesh) if s.shape.name == "tall_box" else s for s in made.surfaces)
+    return made._replace(surfaces=tuple(surfaces), source=None)
 
 
 def box_with(mesh):
