@@ -271,7 +271,10 @@ def _print_json(document):
 
 
 def _say(message, *_):
-    print(f"castray: {' '.join(str(message).split())}", file=sys.stderr)
+    """A message as one line on standard error; what is not to be seen, as its code."""
+    line = " ".join(str(message).split())
+    shown = (c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in line)
+    print(f"castray: {''.join(shown)}", file=sys.stderr)
 
 
 def main(words=None):
@@ -284,7 +287,7 @@ def main(words=None):
             warnings.showwarning = _say
             code = app(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
-        print(f"castray: {' '.join(str(error).split())}", file=sys.stderr)
+        _say(error)
         sys.exit(2)
     except MemoryError:
         print("castray: not enough memory for that; try a smaller --size or fewer --spp", file=sys.stderr)
