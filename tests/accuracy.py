@@ -36,7 +36,8 @@ A figure is the sum of independent chunks; chunk k has the seed {SEED} + 1000 k.
 or intervals, all chunks together. 0 of N seen means below 3 / N with 95 % confidence. The last column is the
 commit that was measured, with a + where files differed from it.
 """
-PEERS = re.compile("<!-- peers -->\n.*?<!-- /peers -->\n", re.DOTALL)  # a part that `make peers` writes
+PART = "<!-- {name} -->\n{text}<!-- /{name} -->\n"  # what another command writes into the same page
+PARTS = re.compile(r"<!-- (\w+) -->\n.*?<!-- /\1 -->\n", re.DOTALL)
 TABLE = """
 | name | figure | precision | N | found | asked | others | at |
 |---|---|---|---|---|---|---|---|
@@ -128,7 +129,7 @@ def lines_of(path):
 def page(lines, old=""):
     """ACCURACY.md from the lines by name; figures without one are left out, families without any too.
 
-    old: the page as it was, whose comparison with a peer stays.
+    old: the page as it was, whose parts of other commands stay.
     """
     text = HEAD
     for family in FAMILIES:
@@ -136,7 +137,13 @@ def page(lines, old=""):
         if rows:
             notes = family.notes() if hasattr(family, "notes") else ""
             text += f"\n## {family.TITLE}\n{TABLE}" + "\n".join(rows) + "\n" + notes
-    return text + "".join("\n" + part for part in PEERS.findall(old))
+    return text + "".join("\n" + part[0] for part in PARTS.finditer(old))
+
+
+def put(old, name, text):
+    """A page with this text in place of the part of that name, or at its end."""
+    new, parts = PART.format(name=name, text=text), [part for part in PARTS.finditer(old) if part[1] == name]
+    return old.replace(parts[0][0], new) if parts else f"{old}\n{new}"
 
 
 def main():

@@ -8,7 +8,6 @@ their own. Writes the section "What the features cost" of ACCURACY.md. Take time
 
 import argparse
 import json
-import re
 import subprocess
 import sys
 import tempfile
@@ -17,13 +16,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+from accuracy import ROOT, put, text_of
 from counting import DEPTH, SIDE, SPP, TIMES
 from scipy import stats
 
-ROOT = Path(__file__).resolve().parent.parent
-PART = re.compile("<!-- cost -->\n.*?<!-- /cost -->\n", re.DOTALL)
-SECTION = """<!-- cost -->
-## What the features cost
+SECTION = """## What the features cost
 
 One wave of `cornell_unit` ({side} x {side}, {spp} samples, `path`, depth {depth}, lamps by area) at {before},
 the last commit before materials, lights and meshes beyond the simplest came, and at {now}. Counted are the
@@ -42,7 +39,6 @@ and the median of the {rounds} ratios with its 95 % interval.
 ```text
 python tests/cost.py --against {before} --rounds {rounds}
 ```
-<!-- /cost -->
 """
 SAME = "Both walk the same {rays:,} rays."
 OTHER = "They walk {rays[0]:,} and {rays[1]:,} rays: the count is not of the same work."
@@ -118,11 +114,6 @@ def section(before, now, counts, times):
     )
 
 
-def put(page, new):
-    """A page with this section in place of the one it has, or at its end."""
-    return PART.sub(lambda _: new, page) if PART.search(page) else f"{page.rstrip()}\n\n{new}"
-
-
 def differences(counts):
     """Lines on which module calls what more or less often than before."""
     before, now = (Counter(count["calls_by"]) for count in counts)
@@ -147,7 +138,7 @@ def main():
         print(*differences(counts), sep="\n")
         new = section(*names, counts, alternations((other, ROOT), asked.rounds))
     print(new)
-    asked.out.write_text(put(asked.out.read_text(encoding="utf-8"), new), encoding="utf-8")
+    asked.out.write_text(put(text_of(asked.out), "cost", new), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -74,7 +74,8 @@ def numbers(seed, n, dtype, rows=3):
 
 def light_samples(of, point, seed, n=100_000, precision=64, by="solid_angle", u=None):
     """n light samples for a receiver at `point` (3,), or one for each of points (3, n). u: numbers (3, n)."""
-    of = of.at(Settings(precision=precision, light_sampling=by))
+    # Not by `at`, which refuses pictures of lamps as small as some here.
+    of = Scene(of.definition, Settings(precision=precision).dtype, light_sampling=by)
     point = np.asarray(point, float)
     p = np.repeat(point[:, None], n, axis=1) if point.ndim == 1 else point
     with np.errstate(all="ignore"):

@@ -15,8 +15,9 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
+import accuracy
 import numpy as np
-from accuracy import KEPT, PEERS, ROOT, SEED, commit, text_of
+from accuracy import KEPT, ROOT, SEED, commit, text_of
 from peer_definitions import of_the_peer
 from peer_scenes import SCENES
 from stats import sidak
@@ -222,8 +223,7 @@ def section(results):
 
 def put(page, new):
     """A page with this section in place of the one it has, or at its end."""
-    new = f"<!-- peers -->\n{new}<!-- /peers -->\n"
-    return PEERS.sub(lambda _: new, page) if PEERS.search(page) else f"{page}\n{new}"
+    return accuracy.put(page, "peers", new)
 
 
 def main():

@@ -9,7 +9,8 @@ import sys
 
 import numpy as np
 import pytest
-from cost import interval, put, section
+from accuracy import page, put
+from cost import interval, section
 from suite import ROOT
 
 # Calls per wave (128 x 128 pixels, 2 samples, depth 8, path, lamps by area). 10 895 with 374.2 MB at c9fe41c,
@@ -119,6 +120,7 @@ def test_the_interval_of_a_median_holds_it_as_often_as_it_says(suite_seed):
 def test_the_section_stands_where_it_stood():
     counts = [{"calls": n, "bytes": 10 * n, "rays": 7} for n in (100, 90)]
     new = section("abc", "def", counts, np.array([[1.0, 0.9], [2.0, 1.9], [3.0, 2.0]]))
-    page = put("# Accuracy\n", new)
-    assert "| NumPy calls | 100 | 90 | 0.900 |" in page and page.count("<!-- cost -->") == 1
-    assert put(page + "\n## More\n", new) == page + "\n## More\n"
+    whole = put(page({}), "cost", new)
+    assert "| NumPy calls | 100 | 90 | 0.900 |" in whole and whole.count("<!-- cost -->") == 1
+    assert put(put(whole, "peers", "More\n"), "cost", new) == put(whole, "peers", "More\n")
+    assert page({}, whole) == whole  # `make accuracy` leaves it
