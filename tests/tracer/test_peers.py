@@ -142,6 +142,14 @@ def test_the_section_is_replaced_and_outlives_the_other_figures(measured):
     assert peers.put(page, "else\n").count("<!-- peers -->") == 1
 
 
+@pytest.mark.parametrize(
+    "wrong", [{"off": 1}, {"beyond": 0.02}, {"region_Z": -4.1}, {"Z": [0.0, 4.1, 0.0]}], ids=str
+)
+def test_each_of_the_four_figures_can_miss(wrong):
+    right = {"tested": 12288, "off": 0, "beyond": 0.012, "region_Z": 3.0, "Z": [1.0, -2.0, 0.5]}
+    assert peers.good(right) and not peers.good(right | wrong)
+
+
 def test_a_picture_that_is_not_finite_counts_as_off(suite_seed):
     def program(value):
         return blank(value)(None, 1, range(suite_seed, suite_seed + 8))
