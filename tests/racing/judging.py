@@ -82,7 +82,10 @@ class Race:
 
     def __init__(self, rows):
         self.rows = rows
-        self.entries = list(dict.fromkeys(row.entry for row in rows))
+        programs = list(dict.fromkeys(row.entry.program for row in rows))
+        self.entries = sorted(
+            dict.fromkeys(row.entry for row in rows), key=lambda one: programs.index(one.program)
+        )
         self.spps = sorted({row.spp for row in rows})
 
     def of(self, entry, spp):
