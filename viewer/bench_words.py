@@ -64,7 +64,7 @@ def _estimator_dict(study, one, points):
         "name": one.name,
         **one._asdict(),
         "memory": study.memory[one],
-        "slope": _number(efficiency.slope(points)),
+        "slope": _number(_slope(study, points)),
         "points": [
             {
                 "spp": point.spp,
@@ -195,7 +195,7 @@ def _estimator_table(study, curves):
         table.add_row(
             study.label(one),
             f"{100.0 * last.efficiency / best:.3g} %" if last in resolved else "-",
-            _slope(points),
+            f"{slope:+.2f}" if math.isfinite(slope := _slope(study, points)) else "-",
             f"{last.paths_per_second:.3g}",
             f"{last.rays_per_second:.3g}",
             f"{1e3 * last.kernel:.2f}",
@@ -204,9 +204,9 @@ def _estimator_table(study, curves):
     return table
 
 
-def _slope(points):
-    found = efficiency.slope(points)
-    return f"{found:+.2f}" if math.isfinite(found) else "-"
+def _slope(study, points):
+    """The slope over the points that the reference resolves."""
+    return efficiency.slope([point for point in points if _resolved(point, study.reference)])
 
 
 def verdict(study):
