@@ -1,4 +1,4 @@
-"""Whole pictures: rooms whose radiance is known, two loops against one another, error bars, the same bits."""
+"""Whole pictures: rooms whose radiance is known, two loops against one another, error bars."""
 
 import numpy as np
 from cases import loaded
@@ -6,7 +6,6 @@ from cases import loaded
 import tracer
 from figures.figure import Figure
 from tracer import Settings, tails
-from tracer.engine import waves
 from tracer.testing import calibration, z_test
 
 TITLE = "Pictures"
@@ -62,27 +61,8 @@ def _path_against_walk(seed):
     return {"Z": float(z_test(*pictures).Z[0]), "dropped": sum(p.dropped for p in pictures)}
 
 
-def _reproduced(seed):
-    """Pictures with waves of other sizes; the pixels that differ in any bit."""
-    scene, settings = loaded("cornell_unit"), Settings(width=SIDE, height=SIDE, spp=18, seed=seed)
-    usual, usual_tasks = tracer.render(scene, settings).rgb, waves.tasks
-    differ = 0
-    try:
-        for lanes in (700, 5000):
-            waves.tasks = lambda settings, lanes=lanes: usual_tasks(settings, lanes)
-            other = tracer.render(scene, settings).rgb
-            differ += int((other.view(np.uint32) != usual.view(np.uint32)).any(axis=2).sum())
-    finally:
-        waves.tasks = usual_tasks
-    return {"differ": differ}
-
-
-def _judge_waves(sums, chunks):
-    return str(sums["differ"]), sums["differ"] == 0
-
-
 def figures():
-    """Furnaces without and with noise, calibration, the loops' agreement, and the same bits."""
+    """Furnaces without and with noise, calibration, and the loops' agreement."""
     paths = SIDE * SIDE
     for precision, bar in ((32, 1e-5), (64, 1e-7)):  # pixels are rounded to float32 in both
         yield Figure(
@@ -97,12 +77,10 @@ def figures():
             lambda sums, chunks, bar=bar: (f"{sums['most_off']:.2g}", sums["most_off"] <= bar),
         )
     bars = "share of 95 % error bars that hold the truth, furnace with roulette"
-    size = "pixels that change with the size of waves"
     between = "bias Z of path against walk, cornell_unit"
     for key, what, bar, anchors, n, measure, judge in (
         ("furnace-bias", "bias Z of a furnace, roulette", "< 4", NOISY, 64 * paths, _noisy_furnace, _judge_Z),
         ("calibration", bars, "94.5 to 95.5 %", "we know of none", paths, _intervals, _judge_intervals),
         ("path-walk", between, "< 4", NOISY, 160 * paths, _path_against_walk, _judge_Z),
-        ("waves", size, "0", "Falcor: tolerance 0.0", paths, _reproduced, _judge_waves),
     ):
         yield Figure(key, what, bar, anchors, "float32", 100, n, measure, judge)

@@ -3,6 +3,7 @@
 import pytest
 from accuracy import kept, line, lines_of, measure, page
 from figures import FAMILIES, figures
+from truth import entry, keys
 
 ALL = {figure.key: figure for figure in figures()}
 QUICK = ("escapes-edges-far-32", "furnace-exact-64", "waves")
@@ -16,6 +17,15 @@ pytestmark = [pytest.mark.statistical, pytest.mark.slow]
 def test_one_percent_of_a_figure_is_good(tmp_path, key):
     sums, chunks, _ = measure(ALL[key], tmp_path, 0.01)
     assert "missed" not in line(ALL[key], sums, chunks), line(ALL[key], sums, chunks)
+
+
+def furnace(brighter):
+    """What 100 chunks of a white furnace find that is brighter by a factor, with errors of 0.05 %."""
+    found = {}
+    for key in keys("albedo.ggx."):
+        value = entry(key)[1]
+        found[f"mean {key}"], found[f"square {key}"] = 100 * brighter * value, (100 * 5e-4 * value) ** 2
+    return found
 
 
 def test_what_is_done_is_not_done_again(tmp_path):
@@ -38,10 +48,24 @@ def test_what_is_done_is_not_done_again(tmp_path):
         ("path-walk", {"Z": 0.0, "dropped": 1}),
         ("calibration", {"inside": 94_000, "intervals": 100_000}),
         ("waves", {"differ": 1}),
+        ("processes", {"differ": 1}),
+        ("alone", {"differ": 1}),
+        ("exact-64", {"most_off": 1.1e-12, "where": ["a"]}),
+        ("exact-32", {"most_off": 4.1, "where": ["a"]}),
+        ("exact-estimates-32", {"found": [["a", 0.5, 0.009], ["b", 1.01, 0.009]]}),
+        ("exact-estimates-64", {"found": [["a", 0.5, 0.009], ["b", 0.5, 0.011]]}),
+        ("chi-square", {"p": [["a", k / 1000] for k in range(1, 1000)] + [["b", 1e-6]]}),
+        ("chi-square", {"p": [["a", 0.1 + 0.8 * k / 1000] for k in range(1000)]}),
+        ("weights-32", {"most_weight": 1.0 + 9 * 2.0**-23}),
+        ("white-furnace-ggx-64", furnace(1.003)),
+        ("invalid-32", {"dropped": 1, "negative": 0}),
+        ("invalid-64", {"dropped": 0, "negative": 1}),
+        ("same-paths", {"same a": 99.8, "difference a": 0.0}),
+        ("same-paths-flat", {"same a": 100.0, "difference a": 1.1e-3}),
     ],
 )
 def test_a_bad_figure_is_marked(key, wrong):
-    """The broken twins."""
+    """The broken twins: the smallest fault that each is to see."""
     assert "**missed**" in line(ALL[key], wrong, 100)
 
 
@@ -57,6 +81,11 @@ def test_a_part_is_measured_again_without_losing_the_other_lines(tmp_path):
         k: v for k, v in old.items() if k != "waves"
     }
     assert all(f"## {family.TITLE}" in new for family in FAMILIES)
+    assert "348 of 348 values" in new
+
+
+def test_a_good_furnace_is_not_marked():
+    assert "**missed**" not in line(ALL["white-furnace-ggx-64"], furnace(1.0), 100)
 
 
 def test_names_of_figures_are_different():
