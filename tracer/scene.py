@@ -12,6 +12,7 @@ from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
 from tracer.resolution import refusal
 from tracer.settings import TracerError
+from tracer.shape import start
 from tracer.shape.arrange import arrange
 from tracer.shape.chart import Charts
 from tracer.shape.rays import Rays, error_bound, leave
@@ -86,7 +87,9 @@ class Scene:
         planes = [shape.planes() for shape in self.shapes]
         self._n = np.concatenate([n for n, _ in planes], axis=1).astype(self.dtype)
         self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
-        self._reach = np.abs(self._c)  # what enters a primitive's error bound beside the point itself
+        self._faces = start.Faces.of(self.shapes, self.dtype)
+        # What enters a primitive's error bound beside the point itself.
+        self._reach = self._faces.reach.astype(self.dtype)
         self._spheres = []
         self._meshes = [
             (first, shape)
@@ -106,7 +109,6 @@ class Scene:
         extent = max(
             np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
         )
-        corners = np.concatenate([shape.outline() for shape in self.shapes], axis=2).astype(self.dtype)
         materials = [self.definition.bsdfs[surface.bsdf] for surface in self.definition.surfaces]
         self.arrangement = arrange(
             self.shapes,
@@ -115,7 +117,7 @@ class Scene:
             [surface.radiance is not None for surface in self.definition.surfaces],
             bool(self.definition.emitters),
             extent,
-            corners,
+            self._faces,
             self.dtype,
         )
 
@@ -147,9 +149,19 @@ class Scene:
 
         Returns (t (N,), inf where nothing is hit; primitive (N,), -1 there).
         """
-        return self._closest(Rays.towards(o, d, source))
+        return self._closest(Rays.towards(o, d, source, touched=[]))
 
     def _closest(self, rays):
+        t, primitive = self._nearest(rays)
+        lanes, moved = self._moved(rays)
+        if lanes.size:
+            t[lanes], primitive[lanes] = self._nearest(moved)
+        if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
+            none = ~np.isfinite(rays.o + rays.d).all(axis=0)
+            t[none], primitive[none] = np.inf, -1
+        return t, primitive
+
+    def _nearest(self, rays):
         t = np.full(rays.source.shape, np.inf, self.dtype)
         primitive = np.full(rays.source.shape, -1, np.int32)
         for kernel in self.arrangement.closest:
@@ -161,10 +173,15 @@ class Scene:
             else:
                 np.copyto(primitive, met, where=nearer)
             t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
-        if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
-            none = ~np.isfinite(rays.o + rays.d).all(axis=0)
-            t[none], primitive[none] = np.inf, -1
         return t, primitive
+
+    def _moved(self, rays):
+        """The lanes whose starts had to be moved off other faces, and their rays from there; see start."""
+        if not rays.touched:
+            return np.empty(0, np.intp), None
+        lanes, others = (np.concatenate(column) for column in zip(*rays.touched, strict=True))
+        lanes, o = start.clear(self._faces, rays.o, rays.source, lanes, others)
+        return lanes, rays.take(lanes)._replace(o=o.astype(self.dtype))
 
     def hit(self, o, d, t, primitive):
         """Everything about the points o + t d, all of which lie on a primitive."""
@@ -243,6 +260,13 @@ class Scene:
         rays, distance = self._between(
             hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
+        blocked = self._blocked(rays, distance)
+        lanes, moved = self._moved(rays)
+        if lanes.size:
+            blocked[lanes] = self._blocked(moved, distance[lanes])
+        return blocked
+
+    def _blocked(self, rays, distance):
         blocked = np.zeros(distance.shape, bool)
         for blocks in self.arrangement.blocking:
             blocked |= blocks(rays, distance)
@@ -262,10 +286,10 @@ class Scene:
 
     def _between(self, p, n, source, q, nq, target, wi):
         """Rays from p to q, both moved off their surfaces towards each other, and their lengths (N,)."""
-        start = leave(p, n, self._bound(p, n, source), wi)
-        gap = leave(q, nq, self._bound(q, nq, target), -wi) - start
+        o = leave(p, n, self._bound(p, n, source), wi)
+        gap = leave(q, nq, self._bound(q, nq, target), -wi) - o
         distance = length(gap)
-        return Rays.towards(start, gap / distance, source, target), distance
+        return Rays.towards(o, gap / distance, source, target, []), distance
 
     def frame(self, n, p, primitive):
         """The local frames at points (3, N) with shading normals n: the surface's u runs along s where the

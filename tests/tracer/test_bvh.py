@@ -63,7 +63,8 @@ def test_few_leaves_are_visited():
     low, high = (f(ball.vertices[ball.faces], axis=1) for f in (np.min, np.max))
     seen = []
     o, d = np.array([[0.0], [0.0], [5.0]]), np.array([[0.05], [0.02], [-1.0]])
-    bvh.walk(bvh.build(low, high), o, d, np.full(1, np.inf), lambda triangles, lanes: seen.extend(triangles))
+    root, over_d = bvh.build(low, high), bvh.inverse(d)
+    bvh.walk(root, o, over_d, np.full(1, np.inf), lambda triangles, lanes, starting: seen.extend(triangles))
     assert 0 < len(seen) < len(ball.faces) / 10
 
 

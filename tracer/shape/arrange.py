@@ -31,14 +31,14 @@ class Arrangement(NamedTuple):
     harmless: tuple  # numbers of the other shapes that never block
 
 
-def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
+def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype):
     """The Arrangement of a scene.
 
     first: number of each shape's first primitive; sealed: (S,) whether nothing goes on behind its front;
-    shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; corners: those of
-    all primitives, (3, 4, P).
+    shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; others: the
+    Faces of all primitives.
     """
-    kernels = [shape.kernel(int(k), extent, dtype, corners) for shape, k in zip(shapes, first, strict=True)]
+    kernels = [shape.kernel(int(k), extent, dtype, others) for shape, k in zip(shapes, first, strict=True)]
     # Lamps first: of surfaces at exactly the same distance the first is met.
     order = sorted(range(len(shapes)), key=lambda k: not shining[k])
     sides = room.find(shapes, sealed)
@@ -51,7 +51,7 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, corners, dtype):
     blocking = [partial(_blocks, kernels[k]) for k in order if k not in harmless]
     never = False
     if walls:
-        box = room.RoomKernel(sides, shapes, kernels, extent, dtype)
+        box = room.RoomKernel(sides, shapes, kernels, dtype)
         lamps = [shape for shape, lit in zip(shapes, shining, strict=True) if lit]
         box.never_blocks = never = not elsewhere and all(box.holds(_corners(lamp)) for lamp in lamps)
         closest.insert(sum(bool(shining[k]) for k in order), box)

@@ -38,21 +38,22 @@ def _build(triangles, low, high, centre):
     return Node(bottom, top, None, axis, children)
 
 
-def walk(root, o, d, within, visit):
-    """Visit every leaf that rays o + t d, both (3, N), may meet before `within` (N,).
+def walk(root, o, over_d, within, visit):
+    """Visit every leaf that rays o + t d may meet before `within` (N,); o, over_d = inverse(d): (3, N).
 
-    visit(triangles, lanes) tests a leaf and may lower within[lanes].
+    visit(triangles, lanes, starting) tests a leaf and may lower within[lanes]; starting (N,) bool: which of
+    the lanes start in its box.
     """
-    over_d = inverse(d)
-    ahead = d.mean(axis=1) >= 0.0
+    ahead = np.count_nonzero(over_d > 0.0, axis=1) >= 0.5 * over_d.shape[1]
     waiting = [(root, np.arange(o.shape[1]))]
     while waiting:
         node, lanes = waiting.pop()
-        lanes = lanes[meets(node, o.take(lanes, axis=1), over_d.take(lanes, axis=1), within[lanes])]
+        met, near = _enters(node, o.take(lanes, axis=1), over_d.take(lanes, axis=1), within[lanes])
+        lanes = lanes[met]
         if not lanes.size:
             continue
         if node.triangles is not None:
-            visit(node.triangles, lanes)
+            visit(node.triangles, lanes, near[met] <= 0.0)
             continue
         first, second = node.children if ahead[node.axis] else node.children[::-1]
         waiting.append((second, lanes))
@@ -72,6 +73,11 @@ def inverse(d):
 def meets(node, o, inverse, within):
     """Whether rays o + t d, with inverse = 1/d, pass a node's box before `within`, or miss it by less than
     rounding (Ize 2013), (N,)."""
+    return _enters(node, o, inverse, within)[0]
+
+
+def _enters(node, o, inverse, within):
+    """`meets`, and the distance at which rays enter the box, not above 0 where they start in it."""
     slack = 8.0 * np.finfo(o.dtype).eps
     near, far = None, within
     for k in range(3):
@@ -80,4 +86,4 @@ def meets(node, o, inverse, within):
         near = enter if near is None else np.maximum(near, enter)
         far = np.minimum(far, leave)
     far = far + slack * np.abs(far)
-    return (near - slack * np.abs(near) <= far) & (far >= 0.0)
+    return (near - slack * np.abs(near) <= far) & (far >= 0.0), near

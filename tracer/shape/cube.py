@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from tracer.frame import dot
-from tracer.shape import start, transform
+from tracer.shape import transform
 from tracer.shape.chart import Chart
 from tracer.shape.rays import hits_only, linear
 
@@ -85,9 +85,9 @@ class Cube:
         corner, e1, e2 = self.parallelograms()
         return np.stack((corner, corner + e1, corner + e1 + e2, corner + e2), axis=1)
 
-    def kernel(self, first, extent, dtype, corners=None):
+    def kernel(self, first, extent, dtype, others=None):
         """The intersection routine."""
-        return CubeKernel(self, first, dtype, corners)
+        return CubeKernel(self, first, extent, dtype, others)
 
 
 class CubeKernel:
@@ -99,7 +99,7 @@ class CubeKernel:
 
     faces = 6
 
-    def __init__(self, cube, first, dtype, corners):
+    def __init__(self, cube, first, extent, dtype, others):
         inverse = np.linalg.inv(cube.to_world)
         scale = np.abs(inverse[:3, :3]).max()
         inverse[:3, :3][np.abs(inverse[:3, :3]) < 1e-15 * scale] = 0.0
@@ -107,11 +107,23 @@ class CubeKernel:
         self.rows = [tuple(dtype(v) for v in row) for row in inverse[:3, :3]]
         self.shift = [dtype(v) for v in inverse[:3, 3]]
         # Outwards for rays, whichever side of the faces shines.
-        outward = transform.normals(cube.to_world, _NORMALS)
-        self.outward = outward.astype(dtype)
-        self.offset = (outward * transform.points(cube.to_world, _NORMALS)).sum(axis=0).astype(dtype)
-        self.corners = corners
+        self.outward = transform.normals(cube.to_world, _NORMALS).astype(dtype)
+        self.others = others
+        # No start further from a face than this, anywhere in the scene, is left to rounding.
+        rounding = np.finfo(dtype).eps * (
+            np.abs(inverse[:3, :3]).sum(axis=1) * extent + np.abs(inverse[:3, 3])
+        )
+        margin = 0.0 if others is None else others.margin(first, 6).max()
+        self.margin = dtype((np.linalg.norm(inverse[:3, :3], axis=1) * margin + 8.0 * rounding).max())
+        # Of starts on other shapes around the cube only those that lie in it were put there by rounding.
+        self.outer = others is None or not self._holds(cube, others)
         self.one = dtype(1.0)
+
+    def _holds(self, cube, others):
+        """Whether any other face has a corner in the cube."""
+        corners = np.delete(others.corners, slice(self.first, self.last + 1), axis=2)
+        local = transform.points(np.linalg.inv(cube.to_world), corners.reshape(3, -1))
+        return bool((np.abs(local) < 1.0 - self.margin).all(axis=0).any())
 
     def closest(self, rays, within=np.inf):
         """Distance to the first face met, inf for a miss; the rays in the cube's frame, and which enter."""
@@ -139,10 +151,11 @@ class CubeKernel:
         if own.any():
             self._from_own_face(t, o, d, rays, np.flatnonzero(own))
             entering &= ~own
-        if self.corners is not None:
-            within = np.flatnonzero(inside & (rays.source >= 0) & ~own)
-            if within.size:
-                self._from_another(t, entering, rays, within)
+        if rays.touched is not None:
+            close = inside if self.outer else self._at_surface(o)
+            close = np.flatnonzero(close & (rays.source >= 0) & ~own)
+            if close.size:
+                self._touch(np.stack([o_k.take(close) for o_k in o]), rays, close)
         if rays.target is not None:
             aimed = np.flatnonzero((rays.target >= self.first) & (rays.target <= self.last))
             if aimed.size:  # a face does not hide the point on it that a ray is aimed at
@@ -160,27 +173,26 @@ class CubeKernel:
         t[lanes] = np.inf
         lanes = lanes[dot(outward, rays.d.take(lanes, axis=1)) <= 0.0]
         if lanes.size:
-            far = np.inf
-            for o_k, d_k in zip(o, d, strict=True):
-                o_k, d_k = o_k.take(lanes), d_k.take(lanes)
+            far, local = np.inf, np.stack([o_k.take(lanes) for o_k in o])
+            for o_k, d_k in zip(local, d, strict=True):
+                d_k = d_k.take(lanes)
                 far = np.fmin(far, (np.copysign(self.one, d_k) - np.clip(o_k, -1.0, 1.0)) / d_k)
             t[lanes] = far
+            if rays.touched is not None and not self.outer:
+                self._touch(local, rays, lanes)
 
-    def _from_another(self, t, entering, rays, lanes):
-        """Put right the distances of rays that start on another shape, inside this cube by rounding only.
+    def _touch(self, local, rays, lanes):
+        """Say which rays start, in the cube's own frame, within rounding of which faces."""
+        face, lane = np.nonzero(np.abs(_both_ways(local) - self.one) <= self.margin)
+        lane, number = lanes[lane], self.first + face
+        other = np.flatnonzero(rays.source[lane] != number)
+        if other.size:
+            rays.touched.append((lane[other], number[other]))
 
-        They enter at once, or leave it for good, by the face they stand at.
-        """
-        o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
-        for face in range(6):
-            n, c = self.outward[:, face : face + 1], self.offset[face]
-            close = np.abs(dot(n, o) - c) <= start.margin(n, c, o)
-            if close.any():
-                at = np.flatnonzero(close)
-                outside = start.side(n, c, self.corners[:, :, rays.source[lanes[at]]]) > 0
-                into = dot(n, d[:, at]) < 0.0
-                t[lanes[at[outside]]] = np.where(into, 0.0, np.inf)[outside]
-                entering[lanes[at[outside]]] = True
+    def _at_surface(self, o):
+        """Whether starts, in the cube's own frame, lie within rounding of its surface, inside or out."""
+        farthest = np.maximum(np.maximum(np.abs(o[0]), np.abs(o[1])), np.abs(o[2]))
+        return np.abs(farthest - self.one) <= self.margin
 
     def _face(self, o, d, entering, t, lanes):
         """The face whose plane the hit point is nearest to, of those the ray crosses in its direction."""
@@ -189,3 +201,8 @@ class CubeKernel:
         crossed = (p * d > 0.0) != entering[lanes]
         axis = np.argmax(np.abs(p) * crossed, axis=0)
         return (self.first + 2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)
+
+
+def _both_ways(local):
+    """Points (3, N) along the outward normals of the six faces, (6, N)."""
+    return np.stack((-local, local), axis=1).reshape(6, -1)

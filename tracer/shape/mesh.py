@@ -6,11 +6,9 @@ import numpy as np
 
 from tracer.frame import dot, normalize
 from tracer.settings import TracerError
-from tracer.shape import bvh, inside, start
+from tracer.shape import inside
 from tracer.shape.chart import Chart
-
-# Lanes times triangles in flight: small enough to stay in cache.
-_CHUNK = 1 << 15
+from tracer.shape.mesh_kernel import MeshKernel
 
 
 @dataclass(frozen=True)
@@ -121,9 +119,9 @@ class Mesh:
         n = normalize((1.0 - v - w) * a + v * b + w * c)
         return -n if self.flip_normals else n
 
-    def kernel(self, first, extent, dtype, corners=None):
+    def kernel(self, first, extent, dtype, others=None):
         """The intersection routine."""
-        return MeshKernel(self, first, dtype, corners)
+        return MeshKernel(self, first, dtype, others)
 
 
 def check(name, vertices, faces):
@@ -140,98 +138,3 @@ def check(name, vertices, faces):
     if bad.size:
         number = faces[bad[0]][wrong[bad[0]]][0]
         raise TracerError(f"{name}: face {bad[0]} names vertex {number}, but there are {len(vertices)}")
-
-
-class MeshKernel:
-    """Watertight test of triangles (Woop, Benthin and Wald 2013), a leaf of the tree at a time.
-
-    The ray is sheared onto the axis it points along most; the three edge functions of two triangles that
-    share an edge are then the same numbers with opposite signs, so no ray passes between them. In float32
-    an edge function that comes out as exactly zero is computed again in float64, where products are exact.
-    The distance is that of the plane: the interpolated one is only as good as the longest sheared side.
-    Of triangles at the same distance the lowest number wins, whatever the order of the walk.
-    """
-
-    def __init__(self, mesh, first, dtype, corners):
-        self.first, self.corners = first, corners
-        self.vertices = mesh.vertices.astype(dtype)
-        self.corner_of = mesh.faces
-        n, c = mesh.planes()
-        self.n, self.c = n.astype(dtype), c.astype(dtype)
-        of_face = self.vertices[mesh.faces]
-        low, high = of_face.min(axis=1), of_face.max(axis=1)
-        # Wide enough for a ray that starts on a face and, by rounding, behind it.
-        pad = start.margin(self.n, self.c, np.maximum(np.abs(low), np.abs(high)).T)[:, None]
-        self.tree = bvh.build(low - pad, high + pad)
-
-    def closest(self, rays, within=np.inf):
-        """Distance to the nearest triangle before `within` (N,), inf where there is none, and which."""
-        n = rays.source.size
-        t, face = np.full(n, within, rays.o.dtype), np.full(n, -1, np.int32)
-        near = np.flatnonzero(bvh.meets(self.tree, rays.o, bvh.inverse(rays.d), t))
-        major = np.argmax(np.abs(rays.d.take(near, axis=1)), axis=0)
-        for axis in range(3):
-            lanes = near[major == axis]
-            if lanes.size:
-                t[lanes], face[lanes] = self._along(axis, rays.take(lanes), t[lanes])
-        return np.where(face >= 0, t, np.inf), self.first + face
-
-    def _along(self, axis, rays, t):
-        """closest, for rays whose largest component is `axis`."""
-        kx, ky = (axis + 1) % 3, (axis + 2) % 3
-        along = rays.d[axis]
-        sheared = np.stack((rays.o[kx], rays.o[ky], rays.o[axis], rays.d[kx] / along, rays.d[ky] / along))
-        face = np.full(t.size, -1, np.int32)
-
-        def visit(triangles, lanes):
-            step = max(1, _CHUNK // triangles.size)
-            for begin in range(0, lanes.size, step):
-                part = lanes[begin : begin + step]
-                found = self._triangles(triangles, (kx, ky, axis), sheared.take(part, axis=1), rays, part)
-                best = np.argmin(found, axis=0)
-                t_best, number = found[best, np.arange(part.size)], triangles[best]
-                nearer = (t_best < t[part]) | ((t_best == t[part]) & (number < face[part]))
-                t[part[nearer]], face[part[nearer]] = t_best[nearer], number[nearer]
-
-        bvh.walk(self.tree, rays.o, rays.d, t, visit)
-        return t, face
-
-    def _triangles(self, triangles, axes, sheared, rays, lanes):
-        """Distances (T, N) of sheared rays to triangles; inf for a miss."""
-        x, y = _shear(self.vertices, self.corner_of[triangles], axes, sheared)
-        u, v, w = _edges(x, y)
-        if u.dtype == np.float32:
-            again = (u == 0.0) | (v == 0.0) | (w == 0.0)
-            if again.any():
-                exact = _edges(*([c[again].astype(np.float64) for c in side] for side in (x, y)))
-                for edge, better in zip((u, v, w), exact, strict=True):
-                    edge[again] = better
-        inside = ((u >= 0.0) & (v >= 0.0) & (w >= 0.0)) | ((u <= 0.0) & (v <= 0.0) & (w <= 0.0))
-        number = self.first + triangles[:, None]
-        hit = inside & (u + v + w != 0.0) & (rays.source[lanes] != number)
-        if rays.target is not None:
-            hit &= rays.target[lanes] != number
-        row, column = np.nonzero(hit)
-        met, lanes = triangles[row], lanes[column]
-        o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
-        n, c = self.n.take(met, axis=1), self.c[met]
-        t = np.full(hit.shape, np.inf, u.dtype)
-        t[row, column] = start.distance(o, d, n, c, rays.source[lanes], self.corners)
-        return t
-
-
-def _shear(vertices, corners, axes, sheared):
-    """Corners of triangles (T, 3) across the sheared rays: x and y, each three (T, N)."""
-    o, shear_x, shear_y = sheared[:3], sheared[3], sheared[4]
-    x, y = [], []
-    for k in range(3):
-        v = vertices[corners[:, k]]
-        away = v[:, axes[2], None] - o[2]
-        x.append((v[:, axes[0], None] - o[0]) - shear_x * away)
-        y.append((v[:, axes[1], None] - o[1]) - shear_y * away)
-    return x, y
-
-
-def _edges(x, y):
-    """The three edge functions: twice the signed areas that the sheared ray's axis cuts off."""
-    return x[2] * y[1] - y[2] * x[1], x[0] * y[2] - y[0] * x[2], x[1] * y[0] - y[1] * x[0]

@@ -15,14 +15,15 @@ class Rays(NamedTuple):
     inv_d: np.ndarray  # (3, N) 1/d, +infinite where a component is zero
     source: np.ndarray  # (N,) number of the primitive the ray starts on, -1 for none
     target: np.ndarray | None = None  # (N,) number of the primitive it is aimed at
+    touched: list | None = None  # kernels put here (lanes, primitives) that starts may touch; see start
 
     @classmethod
-    def towards(cls, o, d, source, target=None):
+    def towards(cls, o, d, source, target=None, touched=None):
         """Rays from o along d."""
-        return cls(o, d, 1.0 / (d + 0.0), source, target)  # -0 + 0 is +0
+        return cls(o, d, 1.0 / (d + 0.0), source, target, touched)  # -0 + 0 is +0
 
-    def take(self, lanes):
-        """The rays of some lanes."""
+    def take(self, lanes, touched=None):
+        """The rays of some lanes, which start afresh on what they touch."""
         target = None if self.target is None else self.target[lanes]
         return Rays(
             self.o.take(lanes, axis=1),
@@ -30,6 +31,7 @@ class Rays(NamedTuple):
             self.inv_d.take(lanes, axis=1),
             self.source[lanes],
             target,
+            touched,
         )
 
 

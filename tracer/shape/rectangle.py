@@ -70,9 +70,9 @@ class Rectangle:
         corner, e1, e2 = self.parallelograms()
         return np.stack((corner, corner + e1, corner + e1 + e2, corner + e2), axis=1)
 
-    def kernel(self, first, extent, dtype, corners=None):
+    def kernel(self, first, extent, dtype, others=None):
         """The intersection routine."""
-        return RectangleKernel(self, first, extent, dtype, corners)
+        return RectangleKernel(self, first, extent, dtype, others)
 
 
 class RectangleKernel:
@@ -84,7 +84,7 @@ class RectangleKernel:
 
     faces = 1
 
-    def __init__(self, rectangle, first, extent, dtype, corners):
+    def __init__(self, rectangle, first, extent, dtype, others):
         n, c = rectangle.planes()
         n, c = n[:, 0], c[0]
         e1, e2 = rectangle.edges
@@ -92,21 +92,18 @@ class RectangleKernel:
         size = np.abs(dual).max(axis=1, keepdims=True)
         rows = dual / size  # largest component 1: an axis-aligned side costs no product
         centre = rectangle.centre
-        self.first, self.corners = first, corners
+        self.first, self.others = first, others
         self.axis = int(np.argmax(np.abs(n))) if np.count_nonzero(n) == 1 else None
         self.n = tuple(dtype(v) for v in n)
         self.c = dtype(c if self.axis is None else centre[self.axis])
-        self.plane = n.astype(dtype).reshape(3, 1), dtype(c)
         self.rows = [tuple(dtype(v) for v in row) for row in rows]
         self.middles = [dtype(row @ centre) for row in rows]
         eps = np.finfo(dtype).eps
-        self.limits = [
-            dtype(1.0 / scale[0] + 8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre)))
-            for row, scale in zip(rows, size, strict=True)
-        ]
-        # No start further from the plane than this, anywhere in the scene, is left to rounding.
-        far = np.full((3, 1), extent, dtype)
-        self.margin = start.margin(np.abs(self.plane[0]), self.plane[1], far)
+        rounding = [8.0 * eps * (np.abs(row).sum() * extent + abs(row @ centre)) for row in rows]
+        self.limits = [dtype(1.0 / s[0] + r) for s, r in zip(size, rounding, strict=True)]
+        # No start further from the plane or the edge than this, anywhere in the scene, is left to rounding.
+        self.touching = [dtype(1.0 / s[0] + 8.0 * r) for s, r in zip(size, rounding, strict=True)]
+        self.margin = dtype(0.0 if others is None else others.margin(first, 1)[0])
 
     def closest(self, rays, within=np.inf):
         """Distance along each ray, inf for a miss, and the primitive."""
@@ -119,16 +116,31 @@ class RectangleKernel:
         hit = rays.source != self.first
         if rays.target is not None:
             hit &= rays.target != self.first
+        close = np.flatnonzero(hit & (np.abs(depth) <= self.margin))
         for row, middle, limit in zip(self.rows, self.middles, self.limits, strict=True):
             reach = linear(row, rays.o) + t * linear(row, rays.d)
             hit &= np.abs(reach - middle) <= limit
-        lanes = np.flatnonzero(hit & (np.abs(depth) <= self.margin))
+        met = close[hit[close]] if close.size else close
         hit &= t > 0.0
         t = hits_only(t, hit)
-        if lanes.size:
-            o, d = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1)
-            t[lanes] = start.distance(o, d, *self.plane, rays.source[lanes], self.corners)
+        if close.size:
+            self._from_close_by(t, depth, rays, close, met)
         return t, self.first
+
+    def _from_close_by(self, t, depth, rays, lanes, met):
+        """Put right the distances of the rays `met`, which start near the plane on another primitive; say
+        which of `lanes` may touch the rectangle."""
+        if met.size:
+            o, cos = rays.o.take(met, axis=1), linear(self.n, rays.d.take(met, axis=1))
+            t[met] = start.distance(-depth[met], cos, o, self.first, rays.source[met], self.others)
+        lanes = lanes[rays.source[lanes] >= 0]
+        if rays.touched is not None and lanes.size:
+            o = rays.o.take(lanes, axis=1)
+            on = np.ones(lanes.shape, bool)
+            for row, middle, limit in zip(self.rows, self.middles, self.touching, strict=True):
+                on &= np.abs(linear(row, o) - middle) <= limit
+            if on.any():
+                rays.touched.append((lanes[on], np.full(np.count_nonzero(on), self.first)))
 
 
 def _clean(rows):

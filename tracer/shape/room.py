@@ -11,7 +11,6 @@ Between two points inside no wall ever blocks.
 
 import numpy as np
 
-from tracer.shape import start
 from tracer.shape.rectangle import Rectangle
 
 _SLACK = 1e-9  # of the box's size: edges that differ by less are the same edge
@@ -70,7 +69,7 @@ class RoomKernel:
 
     faces = 6
 
-    def __init__(self, walls, shapes, kernels, extent, dtype):
+    def __init__(self, walls, shapes, kernels, dtype):
         self._walls = [kernels[k] for k in walls if k >= 0]
         self._number = np.array([kernels[k].first if k >= 0 else -1 for k in walls], np.int32)
         self.never_blocks, self._open = False, bool((self._number < 0).any())
@@ -78,19 +77,20 @@ class RoomKernel:
         self._low, self._high = (
             [dtype(v) for v in corner] for corner in (bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0))
         )
-        far = np.full((3, 1), extent, dtype)
-        across = np.ones((3, 1), dtype)
-        self._margin = [
-            start.margin(across, np.maximum(np.abs(low), np.abs(high)), far)[0]
-            for low, high in zip(self._low, self._high, strict=True)
-        ]
+        self._margin = max(wall.margin for wall in self._walls)
 
     def holds(self, o):
         """Whether all points (3, N) lie in the box, but for rounding."""
-        return o.size > 0 and all(
-            o[k].min() >= self._low[k] - self._margin[k] and o[k].max() <= self._high[k] + self._margin[k]
-            for k in range(3)
-        )
+        return self._past(o) <= self._margin
+
+    def _past(self, o):
+        """How far points (3, N) lie outside the box at most; below 0 if they all lie in it."""
+        if not o.size:
+            return np.inf
+        past = [
+            (low - x.min(), x.max() - high) for low, x, high in zip(self._low, o, self._high, strict=True)
+        ]
+        return np.max(past)  # not a number if any point is none
 
     def blocks(self, rays, distance):
         """Whether a wall lies between each ray's start and the point `distance` (N,) along it."""
@@ -100,17 +100,31 @@ class RoomKernel:
 
     def closest(self, rays, within=np.inf):
         """Distance to the wall each ray meets, inf where there is none, and the wall's primitive."""
-        if self.holds(rays.o):
+        past = self._past(rays.o)
+        if past <= self._margin:
+            if past > 0.0 and rays.touched is not None:
+                self._touch(rays)
             return self._from_inside(rays)
         t, primitive = self._one_by_one(rays)
         within = np.ones(t.shape, bool)
         for k in range(3):
-            within &= rays.o[k] >= self._low[k] - self._margin[k]
-            within &= rays.o[k] <= self._high[k] + self._margin[k]
+            within &= rays.o[k] >= self._low[k] - self._margin
+            within &= rays.o[k] <= self._high[k] + self._margin
         lanes = np.flatnonzero(within)
         if lanes.size:
             t[lanes], primitive[lanes] = self._from_inside(rays.take(lanes))
         return t, primitive
+
+    def _touch(self, rays):
+        """Say which rays start outside a wall, by rounding."""
+        for k in range(3):
+            for number, past in (
+                (self._number[2 * k], rays.o[k] < self._low[k]),
+                (self._number[2 * k + 1], rays.o[k] > self._high[k]),
+            ):
+                lanes = np.flatnonzero(past & (rays.source >= 0) & (rays.source != number))
+                if lanes.size and number >= 0:
+                    rays.touched.append((lanes, np.full(lanes.size, number)))
 
     def _one_by_one(self, rays):
         t = np.full(rays.source.shape, np.inf, rays.o.dtype)
