@@ -50,7 +50,17 @@ class Settings:
         "how a point on a lamp is chosen: uniform as the receiver sees it (rectangles, spheres), or by area",
         choices=("solid_angle", "area"),
     )
-    sampler: str = option("independent", "where random numbers come from", choices=("independent",))
+    sampler: str = option(
+        "independent",
+        "how random numbers fall: each for itself, or evenly over a pixel's samples",
+        choices=("independent", "lattice"),
+    )
+    replicates: int = option(
+        1,
+        "independent lattices that a pixel's samples are dealt to: from 2 on their means give error bars",
+        least=1,
+        most=4096,
+    )
     precision: int = option(32, "bits of the floating point numbers", choices=(32, 64))
     jitter: bool = option(True, "spread samples over the pixel (off: all through its centre)")
     bug: str | None = option(None, "plant a bug of the zoo (`castray bugs` lists them)")
@@ -72,6 +82,7 @@ class Settings:
         if not isinstance(self.bug, str | None):
             raise TracerError(f"bug: {self.bug!r} is not the name of a bug")
         self._check_roulette()
+        self._check_replicates()
         if self.integrator != "path" and self.strategy != "mis":
             raise TracerError(
                 f"strategy: {self.strategy!r} is for the path integrator; {self.integrator} has only one way"
@@ -94,10 +105,26 @@ class Settings:
             raise TracerError("roulette: 1 needs a max_depth, or a path in a closed room never ends")
         object.__setattr__(self, "roulette", repr(q))
 
+    def _check_replicates(self):
+        if self.replicates == 1:
+            return
+        if self.sampler == "independent":
+            raise TracerError(
+                f"replicates: {self.replicates} is for sampler lattice; independent samples need none"
+            )
+        if self.spp % self.replicates:
+            raise TracerError(f"spp: {self.spp} is not a multiple of replicates, {self.replicates}")
+
     @property
     def dtype(self):
         """The floating point type of every path quantity."""
         return np.float32 if self.precision == 32 else np.float64
+
+    @property
+    def parts(self):
+        """Into how many independent parts a pixel's samples fall, as the film takes it: None where every sample
+        is one. With one part alone the error of a pixel is not known."""
+        return None if self.sampler == "independent" else self.replicates
 
     @property
     def last_depth(self):
@@ -110,6 +137,11 @@ class Settings:
         if width * height > MOST_PIXELS:
             raise TracerError(f"size: {width} x {height} is more than {MOST_PIXELS} pixels")
         return replace(self, width=width, height=height)
+
+    def at_spp(self, spp):
+        """These settings for another number of samples, for a look: without error bars where that number
+        cannot be dealt to all replicates."""
+        return replace(self, spp=spp, replicates=1 if spp % self.replicates else self.replicates)
 
     def as_dict(self):
         """Plain values by name, as files and links keep them."""

@@ -54,7 +54,7 @@ def path_options(name, without=(), size="default: the scene's"):
 PathOptions = path_options("PathOptions")
 BenchOptions = path_options(  # without what `castray bench` measures
     "BenchOptions",
-    ("integrator", "strategy", "sampler", "precision", "spp"),
+    ("integrator", "strategy", "sampler", "replicates", "precision", "spp"),
     f"default: the scene's, made smaller until its longer side is {SMALL_SIDE}",
 )
 Whole = Parameter(converter=_whole)

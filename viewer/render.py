@@ -1,7 +1,6 @@
 """The picture, rendered beside the window: coarse at once, then finer, until all samples are in."""
 
 import threading
-from dataclasses import replace
 
 import tracer
 from lessons.zoo import planted
@@ -40,7 +39,7 @@ class Painter:
             for spp in passes(self.settings.spp):
                 picture = tracer.render(
                     self.scene,
-                    replace(self.settings, spp=spp),
+                    self.settings.at_spp(spp),
                     progress=self._reporter(progress, spp),
                     steps=planted(self.settings),
                 )

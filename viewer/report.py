@@ -5,6 +5,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from tracer.testing.errorbars import NO_ERROR
 from viewer.caption import applies, caption, shown, why_dead
 from viewer.words import Speaker
 
@@ -95,11 +96,16 @@ def _print_samples(record, chosen, console):
         radiance = (str(v) for v in path.radiance)
         table.add_row(f"{mark}{path.sample}", str(vertices), path.end, *radiance)
     table.add_row("mean", "", "", *(str(v) for v in record.value), style="bold")
-    if len(record.paths) > 1:
+    several, parts = len(record.paths) > 1, record.settings.parts
+    if several and parts != 1:
         table.add_row("its error", "", "", *(f"{v:.2g}" for v in np.sqrt(record.variance)))
     console.print()
     console.print(table)
-    console.print("* shown above; --sample K shows another" if len(record.paths) > 1 else "")
+    if several and parts == 1:
+        console.print(f"its error is not known; {NO_ERROR}")
+    elif several and parts:
+        console.print(f"its error comes from the spread of {parts} replicates")
+    console.print("* shown above; --sample K shows another" if several else "")
 
 
 def print_bugs(bugs, console=None):

@@ -104,7 +104,7 @@ def throughput(events, index):
 def telling_pixel(scene, settings, tries=9):
     """A pixel worth opening with: of a few over the picture, the one whose brightest path shows most."""
     steps = planted(settings)
-    few = replace(settings, spp=min(settings.spp, 8))
+    few = settings.at_spp(min(settings.spp, 8))
     places = [
         (int((0.3 + 0.2 * (k % 3)) * settings.width), int((0.5 + 0.15 * (k // 3)) * settings.height))
         for k in range(tries)

@@ -91,7 +91,8 @@ def selfish(settings, sheet, error):
     while sample < settings.spp and going.size:
         yield plan._rows(going, np.ones(going.size, np.int64), sample)
         sample += film.BLOCK
-        going = np.flatnonzero(plan.relative_spread(sheet) / sample > error * error)
+        variance = sheet.variance().astype(np.float64)
+        going = np.flatnonzero(plan.relative_spread(sheet, variance) > error * error)
 
 
 @pytest.mark.statistical

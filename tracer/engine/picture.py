@@ -20,7 +20,7 @@ class Picture:
     """A rendered picture and what it cost."""
 
     rgb: np.ndarray  # (H, W, 3) float32, linear
-    variance: np.ndarray  # (H, W, 3) float32, of each pixel's mean; NaN where it has fewer than 2 samples
+    variance: np.ndarray  # (H, W, 3) float32, of each pixel's mean; NaN where not known (Settings.parts)
     samples: np.ndarray  # (H, W) samples that went into each pixel
     settings: Settings
     seconds: float
@@ -52,7 +52,7 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=N
     settings = _asked(scene, settings, steps)
     scene = scene.at(settings)
     width, height = settings.width, settings.height
-    sheet = film.Film(width * height)
+    sheet = film.Film(width * height, settings.parts)
     rounds = plan.rounds(settings, sheet, until_error, adaptive)
     rays = dropped = done = 0
     complete = True
@@ -109,7 +109,7 @@ class PixelRecord:
     x: int
     y: int
     value: np.ndarray  # (3,) float32: the pixel, bit for bit as render gives it
-    variance: np.ndarray  # (3,) float32: of that value; NaN where it is one sample
+    variance: np.ndarray  # (3,) float32: of that value; NaN where not known (Settings.parts)
     paths: tuple[RecordedPath, ...]
     settings: Settings
 
@@ -147,5 +147,5 @@ def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
     wave = Wave(np.full(samples.size, x), np.full(samples.size, y), samples, settings, steps)
     with np.errstate(all="ignore"):
         paths = record(waves.events(scene, settings, wave), scene, wave)
-    pixel = film.gather(wave.radiance)
+    pixel = film.gather(wave.radiance, settings.parts)
     return PixelRecord(x, y, pixel.mean()[:, 0], pixel.variance()[:, 0], paths, settings)

@@ -10,8 +10,11 @@ the white ones is measured on black ones only, and the other way round:
 - `adaptive`: a first pass of one block measures; in a second a pixel gets samples in proportion to the spread
   of its four neighbours.
 
-Given its number of samples a pixel is the mean of independent samples like any other: unbiased, with a right
+Given its number of samples a pixel is the mean of its first samples like any other: unbiased, with a right
 error bar; and `inspect` with that number of samples gives it again bit for bit.
+
+With a low-discrepancy sampler `until_error` goes by the spread of the replicates, without which the error is
+not known. `adaptive` goes by that of single samples even there: it only has to tell where more is to be won.
 """
 
 import numpy as np
@@ -46,6 +49,11 @@ def rounds(settings, sheet, until_error=None, adaptive="off"):
         return _adaptive(settings, sheet, adaptive)
     if not 0.0 < until_error < np.inf:
         raise TracerError(f"until_error: {until_error} is not a number above 0")
+    if settings.parts == 1:
+        raise TracerError(
+            f"until_error: samples of sampler {settings.sampler} are not independent, so that their spread is "
+            "no error; give replicates, such as 4, for error bars"
+        )
     return _until_error(settings, sheet, until_error)
 
 
@@ -65,7 +73,7 @@ def _until_error(settings, sheet, error):
         blocks = min(max(sample // film.BLOCK, 1), MOST_BLOCKS, (settings.spp - sample) // film.BLOCK)
         yield _rows(pixels, np.full(pixels.size, blocks), sample)
         sample += blocks * film.BLOCK
-        spread = relative_spread(sheet)
+        spread = relative_spread(sheet, sheet.variance().astype(np.float64) * sheet.samples)
         mean = np.bincount(half, spread, size) / count
         noisy = _beside(spread > STILL * STILL, width, height) > 0.0
         going &= (mean[other] > error * error * sample) & noisy
@@ -76,7 +84,8 @@ def _adaptive(settings, sheet, goal):
     width, height = settings.width, settings.height
     pixels = np.arange(width * height)
     yield _rows(pixels, np.ones(pixels.size, np.int64), 0)
-    square = sheet.variance().astype(np.float64).mean(axis=0) if goal == "mse" else relative_spread(sheet)
+    variance = sheet.sample_variance()
+    square = variance.mean(axis=0) if goal == "mse" else relative_spread(sheet, variance)
     wanted = np.sqrt(_beside(np.nan_to_num(square), width, height))
     more = np.zeros(pixels.size, np.int64)
     for colour in (0, 1):
@@ -85,11 +94,10 @@ def _adaptive(settings, sheet, goal):
     yield _rows(pixels, more, film.BLOCK)
 
 
-def relative_spread(sheet):
-    """Variance of one sample over mean^2 + 0.01, mean of the channels, (P,) float64."""
+def relative_spread(sheet, variance):
+    """variance (3, P), times n if it is that of the mean, over mean^2 + 0.01, mean of the channels, (P,)."""
     mean = sheet.mean().astype(np.float64)
-    variance = np.nan_to_num(sheet.variance().astype(np.float64)) * sheet.samples
-    return (variance / (mean * mean + DARK)).mean(axis=0)
+    return (np.nan_to_num(variance) / (mean * mean + DARK)).mean(axis=0)
 
 
 def _halves(width, height):

@@ -73,7 +73,7 @@ def trace(scene, settings, steps, task):
     sample = (first[:, None] + np.arange(task.samples)).ravel()
     wave = Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
     deque(events(scene, settings, wave), maxlen=0)
-    block = film.block(wave.radiance.reshape(3, -1, task.samples))
+    block = film.block(wave.radiance.reshape(3, -1, task.samples), task.sample, settings.parts)
     return Result(task, block, wave.rays, wave.dropped)
 
 
@@ -85,8 +85,7 @@ def collect(sheet, result):
         return
     for first in np.unique(sample):  # several blocks of one pixel are added one after the other
         here = sample == first
-        total, spread = result.block.total[:, here], result.block.spread[:, here]
-        sheet.add(pixels[here], result.block._replace(total=total, spread=spread))
+        sheet.add(pixels[here], result.block.take(here))
 
 
 def events(scene, settings, wave):

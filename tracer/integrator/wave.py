@@ -65,7 +65,7 @@ class Wave:
         self.x, self.y = np.asarray(x), np.asarray(y)
         self.sample = np.asarray(sample).astype(np.uint32)
         self.settings, self.steps = settings, steps
-        self.random = samplers.Independent(settings.seed, settings.dtype)
+        self.random = samplers.of(settings)
         self.radiance = np.zeros((3, self.x.size), settings.dtype)
         self.dropped = 0
         self.rays = 0

@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from tracer.settings import Settings
+from tracer.testing.errorbars import settings_of, why_unknown
 from tracer.testing.errors import Errors, errors
 from tracer.testing.ztest import ALPHA, Comparison, z_test
 
@@ -42,7 +43,7 @@ def compare(a, b, alpha=ALPHA, names=("the first", "the second"), scene=None):
     Raises TracerError where their sizes differ.
     """
     distance = errors(a, b)
-    without = [n for n, p in zip(names, (a, b), strict=True) if getattr(p, "variance", None) is None]
+    without = {n: why for n, p in zip(names, (a, b), strict=True) if (why := why_unknown(p))}
     z = None if without else z_test(a, b, alpha)
     notes = tuple(_notes(a, b, names, distance, z, without))
     same = distance.equal or (z is not None and z.same)
@@ -55,8 +56,8 @@ def compare(a, b, alpha=ALPHA, names=("the first", "the second"), scene=None):
 def assert_same_picture(a, b, alpha=ALPHA, scene=None):
     """AssertionError unless two pictures are the same but for noise; it says how and where to look.
 
-    a, b: pictures with .rgb, .variance and .samples, from different seeds; without variance they must be
-    equal but for rounding. alpha: chance that two right pictures fail. Raises TracerError where sizes differ.
+    a, b: pictures with .rgb, .variance and .samples, from different seeds; where no variance is known they
+    must be equal but for rounding. alpha: chance that two right pictures fail. Raises TracerError where sizes differ.
     """
     verdict = compare(a, b, alpha, scene=scene)
     if not verdict.same:
@@ -64,15 +65,15 @@ def assert_same_picture(a, b, alpha=ALPHA, scene=None):
 
 
 def _notes(a, b, names, distance, z, without):
-    if without:
-        yield f"No p-value is possible: no variance in {' and '.join(without)}. Only castray's .exr keeps it."
+    for name, why in without.items():
+        yield f"No p-value is possible, because of {name}: {why}."
     if distance.unit == "sRGB":
         yield "Compared as 8-bit sRGB, which rounds, and cuts what is brighter than 1."
     if distance.turned:
         yield f"With the second picture {distance.turned}, they are much closer."
-    first, second = _settings(a), _settings(b)
+    first, second = settings_of(a), settings_of(b)
     if first and second:
-        odd = [k for k in first if k in second and first[k] != second[k] and k not in ("seed", "spp")]
+        odd = [k for k in first if k in second and first[k] != second[k] and k not in ("seed", "spp", "replicates")]
         if odd:
             yield "Settings differ: " + ", ".join(f"{k} {first[k]} and {second[k]}" for k in odd) + "."
         if z is not None and first["seed"] == second["seed"] and not distance.rmse == 0.0:
@@ -109,18 +110,9 @@ def _reasons(distance, z):
     yield f"The region from ({x0}, {y0}) to ({x1 - 1}, {y1 - 1}) is furthest off: Z = {z.region_Z:.2f}."
 
 
-def _settings(picture):
-    """A picture's settings as plain values, from a render or a file; None where it has none."""
-    settings = getattr(picture, "settings", None)
-    if settings is not None:
-        return settings.as_dict()
-    noted = getattr(picture, "notes", {}).get("settings")
-    return noted if isinstance(noted, dict) and {"seed", "spp"} <= noted.keys() else None
-
-
 def _command(picture, x, y, scene):
     """The `castray inspect` that shows a pixel as the picture was made."""
-    notes, settings = getattr(picture, "notes", {}), _settings(picture) or {}
+    notes, settings = getattr(picture, "notes", {}), settings_of(picture) or {}
     height, width = picture.rgb.shape[:2]
     words = ["castray inspect", str(scene or notes.get("scene") or "SCENE"), f"--size {width} {height}"]
     for f in fields(Settings):

@@ -1,7 +1,7 @@
 """The z-test of two pictures.
 
-Null hypothesis: every pixel of both has the same expectation; samples are independent. Three tests share the
-significance alpha (Sidak 1967): every pixel and channel by its z; the whole picture's bias Z, which sees a
+Null hypothesis: every pixel of both has the same expectation; samples are independent, or where they are not,
+the replicates that take their place (Settings.replicates). Three tests share the significance alpha (Sidak 1967): every pixel and channel by its z; the whole picture's bias Z, which sees a
 uniform bias about sqrt(P) times smaller; and the pixels that did not vary at all and yet differ.
 
 What decides is built not to cry wolf where noise is skewed, as that of path tracing is: a pixel that by
@@ -18,6 +18,7 @@ import numpy as np
 
 from tracer import tails
 from tracer.settings import TracerError
+from tracer.testing.errorbars import parts_of, why_unknown
 from tracer.testing.errors import ROUNDING
 from tracer.testing.regions import SMALLEST, around, local_Z, mean, weighed_bias, worst_region
 
@@ -31,7 +32,8 @@ class Estimate:
 
     mean: np.ndarray  # (H, W, 3)
     variance: np.ndarray  # (H, W, 3) of the mean; NaN where not known
-    samples: np.ndarray  # (H, W, 1); infinite where exact or not known
+    samples: np.ndarray  # (H, W, 1) that are independent, or replicates; infinite where exact or not known
+    size: np.ndarray | float = 1.0  # (H, W, 1) samples in each of these
 
     @classmethod
     def of(cls, picture, shape=None):
@@ -42,11 +44,13 @@ class Estimate:
                 np.asarray(picture, np.float64), np.shape(picture) if shape is None else shape
             )
             return cls(mean, np.zeros(mean.shape), np.full((*mean.shape[:2], 1), np.inf))
-        if picture.variance is None:
-            raise TracerError("a picture without variance gives no p-value; keep it as .exr to have one")
+        if why_unknown(picture):
+            raise TracerError(f"a picture without variance gives no p-value: {why_unknown(picture)}")
         samples = np.inf if picture.samples is None else picture.samples
         samples = np.broadcast_to(np.asarray(samples, np.float64), rgb.shape[:2])[..., None]
-        return cls(rgb.astype(np.float64), picture.variance.astype(np.float64), samples)
+        independent = samples if parts_of(picture) is None else np.minimum(samples, parts_of(picture))
+        size = np.where(np.isfinite(samples), samples / np.maximum(independent, 1.0), 1.0)
+        return cls(rgb.astype(np.float64), picture.variance.astype(np.float64), independent, size)
 
 
 @dataclass(frozen=True)
@@ -194,8 +198,9 @@ def _sure(a, b, noisy, plain):
 
 
 def _pooled(a, b):
-    """Variance of a - b from the samples of both as of one kind (Student 1908); 0 if n is unknown."""
-    both = np.isfinite(a.samples) & np.isfinite(b.samples)
+    """Variance of a - b from the samples of both as of one kind (Student 1908); 0 if they are not, or n is
+    unknown."""
+    both = np.isfinite(a.samples) & np.isfinite(b.samples) & (a.size == b.size)
     n, m = np.where(both, a.samples, 1.0), np.where(both, b.samples, 1.0)
     spread = a.variance * n * (n - 1.0) + b.variance * m * (m - 1.0)
     return np.where(both, spread / np.maximum(n + m - 2.0, 1.0) * (1.0 / n + 1.0 / m), 0.0)
