@@ -16,6 +16,7 @@ import numpy as np
 DEPTHS = 8  # vertices with components of their own
 SEARCHED, EXTENDED = 12, 20  # log2 of the number of points
 GROUP = 4  # coordinates in the largest groups
+QUARTER = 0.25  # of the components are good enough within a use
 LOBE, ROULETTE = 0.5, 0.3  # weights beside 1 for film and directions
 
 
@@ -47,22 +48,23 @@ class Chain:
         return self.kernel[(components[:, None] * np.arange(2**self.m)) % 2**self.m]
 
     def scores(self, components):
-        """For each component: the error of its groups of 2, 3 and 4, each in units of the components' average."""
+        """For each component: the error of its groups of 2, 3 and 4, each in units of the components' median."""
         errors = self.values(components) @ self.sums[1:].T / 2**self.m
-        scale = np.abs(errors).mean(axis=0)
+        scale = np.median(errors, axis=0)
         return (errors / np.where(scale > 0.0, scale, 1.0)).sum(axis=1)
 
 
 def grown(chains, choose):
-    """{(use, depth, place): component}, each chosen by choose(key, chains with the coordinates it meets)."""
+    """{(use, depth, place): component}, each chosen by choose(key, met, own): chains with all coordinates that it
+    meets, and with those of its own use."""
     chosen = {}
 
     def of(use, depth, places):
         """Choose a use's coordinates; they meet one another and what the chains hold."""
-        met = [chain.copy() for chain in chains]
+        met, own = [chain.copy() for chain in chains], [Chain(chain.m) for chain in chains]
         for place in places:
-            chosen[use, depth, place] = component = choose((use, depth, place), met)
-            for chain in met:
+            chosen[use, depth, place] = component = choose((use, depth, place), met, own)
+            for chain in (*met, *own):
                 chain.add(component)
 
     def go_on(use, depth, weights):
@@ -85,16 +87,22 @@ def grown(chains, choose):
 
 
 def searched():
-    """Components below 2^SEARCHED, all odd, none equal to or mirrored by another, for up to that many points."""
+    """Components below 2^SEARCHED, all odd, none equal to or mirrored by another, for up to that many points.
+
+    Each is the best of the quarter that does best within its own use.
+    """
     all_of, used = np.arange(1, 2**SEARCHED, 2), []
 
-    def choose(key, chains):
-        score = np.zeros(all_of.size)
+    def score(chains):
+        total = np.zeros(all_of.size)
         for chain in chains:
-            own = np.arange(1, 2**chain.m, 2)
-            score += chain.scores(own)[(all_of % 2**chain.m) // 2]
-        free = ~np.isin(all_of, used)
-        best = int(all_of[free][np.argmin(score[free])])
+            total += chain.scores(np.arange(1, 2**chain.m, 2))[(all_of % 2**chain.m) // 2]
+        return total
+
+    def choose(key, met, own):
+        free, within = ~np.isin(all_of, used), score(own)
+        good = free & (within <= np.quantile(within[free], QUARTER))
+        best = int(all_of[good][np.argmin(score(met)[good])])
         used.extend((best, 2**SEARCHED - best))
         return best
 
@@ -106,9 +114,9 @@ def extended(components):
     for m in range(SEARCHED + 1, EXTENDED + 1):
         known = components
 
-        def choose(key, chains, known=known, m=m):
+        def choose(key, met, own, known=known, m=m):
             pair = known[key] + np.array([0, 2 ** (m - 1)])
-            return int(pair[np.argmin(chains[0].scores(pair))])
+            return int(pair[np.argmin(met[0].scores(pair))])
 
         components = grown([Chain(m)], choose)
     return components

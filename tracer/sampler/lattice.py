@@ -5,7 +5,7 @@
 phi(k) is the radical inverse of the sample's number k (its bits in reverse, behind the point), g_j the odd
 component of the generating vector for coordinate j, s_j the random shift of that coordinate in this pixel
 (Cranley and Patterson 1976). In this order any 2^m samples from a multiple of 2^m on are a whole lattice
-(Hickernell and Niederreiter 2003), so pixels may stop at any number. A number is uniform because its shift
+(Hickernell et al. 2000), so pixels may stop at any number. A number is uniform because its shift
 is, whatever the lattice: nothing is biased.
 
 The shifts are the numbers of `Independent` for sample 0. With `replicates` R there are R lattices, each
@@ -26,18 +26,18 @@ import numpy as np
 
 from tracer.sampler.numbers import USES, common, dimension, pcg4d, uniform
 
-_FILM = (1, 812243)
-_LENS = (570769, 83051)
+_FILM = (1, 774611)
+_LENS = (694217, 742165)
 # Vertex by vertex: light (which one, point), bsdf (lobe, direction), roulette.
 _VERTICES = (
-    (152501, 90693, 673737, 632459, 553117, 505113, 135611),
-    (291797, 713711, 12489, 115415, 926363, 241777, 70673),
-    (763489, 779203, 595463, 668861, 738197, 689481, 333763),
-    (107681, 255663, 808087, 182023, 913823, 176303, 816755),
-    (316363, 766469, 270711, 750853, 237801, 365747, 860583),
-    (247647, 573653, 123079, 532747, 905965, 1005349, 878455),
-    (750017, 804565, 377977, 681091, 473003, 434873, 620117),
-    (186033, 832545, 41821, 374731, 153437, 520511, 86049),
+    (706459, 242979, 50393, 156497, 308667, 938083, 598749),
+    (852889, 963465, 696811, 758887, 472009, 684639, 676553),
+    (758131, 411211, 37315, 644749, 102475, 255549, 287765),
+    (144357, 398449, 295353, 857481, 189775, 242645, 221873),
+    (750619, 54441, 366449, 26553, 862181, 700823, 398423),
+    (197753, 271985, 49485, 402913, 213873, 844621, 951475),
+    (329071, 332761, 869695, 21883, 500775, 726619, 361153),
+    (1045651, 435875, 133103, 905619, 111249, 653191, 680569),
 )
 DEPTHS = len(_VERTICES)
 _ALL = np.array(_VERTICES, np.uint32).T
