@@ -1,14 +1,14 @@
 """Finds the generating vector of `tracer.sampler.lattice`: python tests/lattice.py prints it.
 
-A lattice with a random shift has the variance sum |c(h)|^2 over the frequencies h that it takes for 0 (its dual
-lattice). Jumps make |c(h)|^2 fall as prod h^-2, and then that sum is the mean over the points of prod w(x_j),
+A lattice with a random shift has the variance sum |c(h)|^2 over the frequencies h that it takes for 0 (its
+dual lattice). Jumps make |c(h)|^2 fall as prod h^-2; that sum is then the mean over points of prod w(x_j),
 
     w(x) = sum over h != 0 of exp(2 pi i h x) / h^2 = 2 pi^2 (x^2 - x + 1/6)     (Sloan and Joe 1994),
 
-over the coordinates j that a frequency has. Component by component (Cools et al. 2006) the next one is taken so
-that the sum is small for all groups of up to four coordinates at once and for 4, 8, ..., 2^12 points alike;
-up to 2^20 points its further bits are then chosen one by one. Which groups count is what a path tracer
-multiplies: film, lens, and bounces up to a vertex, with that vertex's light sample; two light samples never.
+over the coordinates j that a frequency has. Component by component (Cools et al. 2006) the next one is taken
+so that the sum is small for all groups of up to four coordinates at once and for 4, 8, ..., 2^12 points; up to
+2^20 points its further bits are then chosen one by one. Which groups count is what a path tracer multiplies:
+film, lens, and bounces up to a vertex, with that vertex's light sample; two light samples never.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ def kernel(m):
 
 
 class Chain:
-    """Sums over groups of coordinates, by their size: sums[l, k] = sum over groups of l of prod w(x_j) at point k."""
+    """Sums over groups of coordinates: sums[l, k] is that of prod w(x_j) at point k over all groups of l."""
 
     def __init__(self, m, sums=None):
         self.m, self.kernel = m, kernel(m)
@@ -48,15 +48,15 @@ class Chain:
         return self.kernel[(components[:, None] * np.arange(2**self.m)) % 2**self.m]
 
     def scores(self, components):
-        """For each component: the error of its groups of 2, 3 and 4, each in units of the components' median."""
+        """For each component: errors of its groups of 2, 3 and 4, each in units of all components' median."""
         errors = self.values(components) @ self.sums[1:].T / 2**self.m
         scale = np.median(errors, axis=0)
         return (errors / np.where(scale > 0.0, scale, 1.0)).sum(axis=1)
 
 
 def grown(chains, choose):
-    """{(use, depth, place): component}, each chosen by choose(key, met, own): chains with all coordinates that it
-    meets, and with those of its own use."""
+    """{(use, depth, place): component}, each chosen by choose(key, met, own): chains with what it meets,
+    and with those of its own use."""
     chosen = {}
 
     def of(use, depth, places):
@@ -127,4 +127,7 @@ if __name__ == "__main__":
     for use in ("film", "lens"):
         print(f"{use}: {[found[use, 0, j] for j in (0, 1)]}")
     for depth in range(DEPTHS):
-        print([found[use, depth, j] for use in ("light", "bsdf") for j in range(3)] + [found["roulette", depth, 0]])
+        print(
+            [found[use, depth, j] for use in ("light", "bsdf") for j in range(3)]
+            + [found["roulette", depth, 0]]
+        )

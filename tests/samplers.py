@@ -1,4 +1,4 @@
-"""Samplers side by side, as castray's was chosen: python tests/samplers.py [--scenes ...] [--side N] [--spp ...].
+"""Samplers side by side, as castray's was chosen: python tests/samplers.py --scenes cornell_unit --spp 16 64
 
 The MSE of a picture is the variance of its pixels between seeds, which needs no reference as no sampler is
 biased. Time is processor time of whole renders, by turns. Beside castray's two:
@@ -14,6 +14,7 @@ biased. Time is processor time of whole renders, by turns. Beside castray's two:
 import argparse
 import statistics
 import time
+from collections import defaultdict
 from dataclasses import dataclass
 from math import isqrt
 from unittest.mock import patch
@@ -25,6 +26,8 @@ from tracer import sampler
 from tracer.sampler.lattice import radical_inverse
 from tracer.sampler.numbers import USES, dimension, pcg4d, uniform
 from tracer.settings import Settings
+from tracer.testing.errors import SMALL
+from tracer.testing.machine import kernel_seconds
 
 U = np.uint32
 DEPTH = 8  # longest path
@@ -117,13 +120,15 @@ def made(kind, settings):
     return kind(settings.seed, settings.dtype, *more)
 
 
-def measured(scene, names, side, spp, seeds):
-    """{name: (MSE, relMSE, processor seconds of a picture)}."""
+def measured(scene, names, side, spp, seeds, say=lambda line: None):
+    """{name: (MSE, relMSE, processor seconds of a picture)}, and the kernel's milliseconds."""
     height = max(1, round(side * scene.height / scene.width))
-    rgb, seconds = {name: [] for name in names}, {name: [] for name in names}
+    rgb, seconds, kernels = defaultdict(list), defaultdict(list), []
     for seed in range(seeds):
         settings = Settings(width=side, height=height, spp=spp, max_depth=DEPTH, seed=seed)
+        kernels.append(kernel_seconds())
         for name in names:
+            say(f"{scene.name}, {spp} spp, {name}: {seed + 1} of {seeds}")
             with patch("tracer.sampler.of", lambda s, name=name: made(SAMPLERS[name], s)):
                 began = time.process_time()
                 picture = tracer.render(scene, settings)
@@ -132,33 +137,36 @@ def measured(scene, names, side, spp, seeds):
     found = {}
     for name in names:
         variance, mean = np.var(rgb[name], axis=0, ddof=1), np.mean(rgb[name], axis=0)
-        relative = (variance / (mean * mean + 0.01)).mean()
+        relative = (variance / (mean * mean + SMALL)).mean()
         found[name] = float(variance.mean()), float(relative), statistics.median(seconds[name])
-    return found
+    return found, 1e3 * statistics.median(kernels)
 
 
-def rows(scene, names, side, spps, seeds):
-    """The lines of a table in Markdown: MSE, relMSE and time, in units of those of `independent`."""
+def rows(scene, names, side, spps, seeds, say=lambda line: None):
+    """The rows of a table; the last columns are in units of those of `independent`."""
     for spp in spps:
-        found = measured(scene, names, side, spp, seeds)
+        found, kernel = measured(scene, names, side, spp, seeds, say)
         base = found["independent"]
         for name in names:
-            mse, relative, seconds = found[name]
-            cells = (
-                scene.name, name, spp, f"{mse:.3g}", f"{mse / base[0]:.3f}", f"{relative:.3g}",
-                f"{relative / base[1]:.3f}", f"{seconds / base[2]:.2f}",
-                f"{seconds * relative / (base[2] * base[1]):.3f}",
-            )  # fmt: skip
-            yield f"| {' | '.join(map(str, cells))} |"
-
-
-HEAD = (
-    "| scene | sampler | spp | MSE | of independent | relMSE | of independent | time | time x relMSE |\n"
-    "|---|---|---:|---:|---:|---:|---:|---:|---:|"
-)
+            mse, relative, seconds = (v / b for v, b in zip(found[name], base, strict=True))
+            yield {
+                "scene": scene.name,
+                "sampler": name,
+                "spp": spp,
+                "MSE": f"{found[name][0]:.3g}",
+                "relMSE": f"{found[name][1]:.3g}",
+                "s": f"{found[name][2]:.3g}",
+                "kernel ms": f"{kernel:.2f}",
+                "MSE ratio": f"{mse:.3f}",
+                "relMSE ratio": f"{relative:.3f}",
+                "time ratio": f"{seconds:.2f}",
+                "time x MSE": f"{seconds * mse:.3f}",
+            }
 
 
 def main():
+    from benchmarks.section import table  # which imports this module
+
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--scenes", nargs="+", default=["cornell_unit"])
     words.add_argument("--samplers", nargs="+", default=list(SAMPLERS), choices=SAMPLERS)
@@ -167,10 +175,8 @@ def main():
     words.add_argument("--seeds", type=int, default=8)
     asked = words.parse_args()
     names = list(dict.fromkeys(("independent", *asked.samplers)))
-    print(HEAD, flush=True)
     for scene in map(tracer.load, asked.scenes):
-        for line in rows(scene, names, asked.side, asked.spp, asked.seeds):
-            print(line, flush=True)
+        print(table(list(rows(scene, names, asked.side, asked.spp, asked.seeds))), end="\n\n", flush=True)
 
 
 if __name__ == "__main__":

@@ -122,8 +122,8 @@ class Settings:
 
     @property
     def parts(self):
-        """Into how many independent parts a pixel's samples fall, as the film takes it: None where every sample
-        is one. With one part alone the error of a pixel is not known."""
+        """Into how many independent parts a pixel's samples fall; None where each is one, as the film takes it.
+        With one part alone the error of a pixel is not known."""
         return None if self.sampler == "independent" else self.replicates
 
     @property

@@ -1,6 +1,6 @@
 """The sections of BENCHMARKS.md, in its order. `tests/bench.py` measures all but the race."""
 
-from benchmarks import looking, programs, scaling, stages
+from benchmarks import looking, programs, sampling, scaling, stages
 from benchmarks.section import Section
 
 BENCH = (
@@ -29,6 +29,14 @@ BENCH = (
         "Longest path",
         "The unit box, 128 x 128, 16 spp, one process.",
         scaling.depth,
+    ),
+    Section(
+        "samplers",
+        "Samplers",
+        "castray's two beside others, depth 8, one process, 64 pixels across; `python tests/samplers.py -h`\n"
+        "says which. MSE is the variance between seeds, time that of the processor; ratios are to the\n"
+        "independent sampler.",
+        sampling.measure,
     ),
     Section(
         "triangles",

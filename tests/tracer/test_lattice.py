@@ -1,4 +1,4 @@
-"""The lattice sampler: the numbers of its formula, spread evenly in every pixel, uniform over pixels and seeds.
+"""The lattice sampler: its formula's numbers, spread evenly in every pixel, uniform over pixels and seeds.
 
 Chi-square at 1 %, shared out by Sidak's formula among the tests of one kind.
 """

@@ -64,7 +64,9 @@ def test_the_mean_is_that_of_any_film(suite_seed):
 def test_one_replicate_says_nothing_and_equal_ones_have_no_variance():
     samples = np.full((3, 4, 40), 1e9 + 0.1, np.float32)
     assert np.isnan(filled(samples, 1).variance()).all()
-    assert np.isnan(film.Film(3, 4).variance()).all() and np.isnan(filled(samples[..., :1], 4).variance()).all()
+    assert (
+        np.isnan(film.Film(3, 4).variance()).all() and np.isnan(filled(samples[..., :1], 4).variance()).all()
+    )
     assert (filled(samples, 4).variance() == 0.0).all()
 
 
@@ -88,7 +90,9 @@ def test_a_look_at_fewer_samples_is_always_possible():
 
 
 def furnace(seed, spp=64, replicates=8, side=32, **more):
-    settings = Settings(width=side, height=side, spp=spp, seed=seed, replicates=replicates, **LATTICE, **FURNACE)
+    settings = Settings(
+        width=side, height=side, spp=spp, seed=seed, replicates=replicates, **LATTICE, **FURNACE
+    )
     return tracer.render(loaded("furnace"), settings, **more)
 
 
@@ -153,11 +157,12 @@ def rmse(sampler, spp, seeds, **options):
 @pytest.mark.slow
 @pytest.mark.statistical
 def test_the_error_falls_faster_than_that_of_independent_samples(suite_seed):
-    """RMSE ~ N^s on cornell_unit from 16 to 256 samples: s < -0.6, and -0.5 within 0.1 for the broken twin, the
-    independent sampler. The noise of s is 0.03 and 0.02."""
+    """RMSE ~ N^s on cornell_unit from 16 to 256 samples: s < -0.6, and -0.5 within 0.1 for the broken twin,
+    independent samples. The noise of s is 0.03 and 0.02."""
     options, seeds = {"width": 20, "height": 20, "max_depth": 8}, range(suite_seed, suite_seed + 6)
     slope = {
-        sampler: np.log(rmse(sampler, 256, seeds, **options) / rmse(sampler, 16, seeds, **options)) / np.log(16)
+        sampler: np.log(rmse(sampler, 256, seeds, **options) / rmse(sampler, 16, seeds, **options))
+        / np.log(16)
         for sampler in ("lattice", "independent")
     }
     assert slope["lattice"] < -0.6 and abs(slope["independent"] + 0.5) < 0.1, slope
@@ -165,7 +170,7 @@ def test_the_error_falls_faster_than_that_of_independent_samples(suite_seed):
 
 @pytest.fixture
 def pictures(tmp_path, monkeypatch, suite_seed):
-    """one.exr without error bars, four.exr and again.exr of four replicates, plain.exr of independent samples."""
+    """one.exr without error bars, four.exr and again.exr with 4 replicates, plain.exr independent."""
     options = {"width": 16, "height": 16, "max_depth": 3, "spp": 16}
     for k, (name, more) in enumerate(
         {

@@ -51,8 +51,8 @@ def rounds(settings, sheet, until_error=None, adaptive="off"):
         raise TracerError(f"until_error: {until_error} is not a number above 0")
     if settings.parts == 1:
         raise TracerError(
-            f"until_error: samples of sampler {settings.sampler} are not independent, so that their spread is "
-            "no error; give replicates, such as 4, for error bars"
+            f"until_error: samples of sampler {settings.sampler} are not independent, so that their spread "
+            "is no error; give replicates, such as 4, for error bars"
         )
     return _until_error(settings, sheet, until_error)
 

@@ -16,7 +16,7 @@ _SIXTEEN = np.uint32(16)
 
 
 def pcg4d(x, y, z, w, count=4):
-    """Four 32-bit words, each (N,) or (1,), x the longest, to the first `count` of four well-mixed ones (N,)."""
+    """Four 32-bit words, (N,) or (1,), x the longest, to the first `count` of four well-mixed ones (N,)."""
     x, y, z, w = (v * _MULTIPLIER for v in (x, y, z, w))
     for v in (x, y, z, w):
         v += _INCREMENT

@@ -31,9 +31,9 @@ class Calibration:
 def calibration(picture, truth, level=0.95):
     """Count the intervals mean +- t sqrt(variance) that hold the truth, pixel by pixel, channel by channel.
 
-    t is Student's for the pixel's number of samples, or of replicates. truth: a number or (H, W, 3). Pixels without variance
-    (one sample, or all samples alike) have no interval and are left out. Channels of one pixel share their
-    paths: for a band of independent intervals count one channel (truth NaN leaves one out).
+    t is Student's for the pixel's number of samples, or of replicates. truth: a number or (H, W, 3). Pixels
+    without variance (one sample, or all samples alike) have no interval and are left out. Channels of one
+    pixel share their paths: for a band of independent intervals count one channel (truth NaN leaves one out).
     """
     estimate = Estimate.of(picture)
     exact = Estimate.of(truth, estimate.mean.shape)

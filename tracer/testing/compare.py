@@ -57,7 +57,8 @@ def assert_same_picture(a, b, alpha=ALPHA, scene=None):
     """AssertionError unless two pictures are the same but for noise; it says how and where to look.
 
     a, b: pictures with .rgb, .variance and .samples, from different seeds; where no variance is known they
-    must be equal but for rounding. alpha: chance that two right pictures fail. Raises TracerError where sizes differ.
+    must be equal but for rounding. alpha: chance that two right pictures fail. Raises TracerError where sizes
+    differ.
     """
     verdict = compare(a, b, alpha, scene=scene)
     if not verdict.same:
@@ -73,7 +74,11 @@ def _notes(a, b, names, distance, z, without):
         yield f"With the second picture {distance.turned}, they are much closer."
     first, second = settings_of(a), settings_of(b)
     if first and second:
-        odd = [k for k in first if k in second and first[k] != second[k] and k not in ("seed", "spp", "replicates")]
+        odd = [
+            k
+            for k in first
+            if k in second and first[k] != second[k] and k not in ("seed", "spp", "replicates")
+        ]
         if odd:
             yield "Settings differ: " + ", ".join(f"{k} {first[k]} and {second[k]}" for k in odd) + "."
         if z is not None and first["seed"] == second["seed"] and not distance.rmse == 0.0:

@@ -1,8 +1,9 @@
 """The z-test of two pictures.
 
 Null hypothesis: every pixel of both has the same expectation; samples are independent, or where they are not,
-the replicates that take their place (Settings.replicates). Three tests share the significance alpha (Sidak 1967): every pixel and channel by its z; the whole picture's bias Z, which sees a
-uniform bias about sqrt(P) times smaller; and the pixels that did not vary at all and yet differ.
+the replicates that take their place (Settings.replicates). Three tests share the significance alpha (Sidak
+1967): every pixel and channel by its z; the whole picture's bias Z, which sees a uniform bias about sqrt(P)
+times smaller; and the pixels that did not vary at all and yet differ.
 
 What decides is built not to cry wolf where noise is skewed, as that of path tracing is: a pixel that by
 chance missed its rare bright paths is too dark *and* thinks itself too sure. So a pixel's error is the
