@@ -6,7 +6,7 @@ dual lattice). Jumps make |c(h)|^2 fall as prod h^-2; that sum is then the mean 
     w(x) = sum over h != 0 of exp(2 pi i h x) / h^2 = 2 pi^2 (x^2 - x + 1/6)     (Sloan and Joe 1994),
 
 over the coordinates j that a frequency has. Component by component (Cools et al. 2006) the next one is taken
-so that the sum is small for all groups of up to four coordinates at once and for 4, 8, ..., 2^12 points; up to
+so that the sum is small for all groups of up to four coordinates and for 4, 8, ..., 2^12 points alike; up to
 2^20 points its further bits are then chosen one by one. Which groups count is what a path tracer multiplies:
 film, lens, and bounces up to a vertex, with that vertex's light sample; two light samples never.
 """

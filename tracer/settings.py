@@ -122,7 +122,7 @@ class Settings:
 
     @property
     def parts(self):
-        """Into how many independent parts a pixel's samples fall; None where each is one, as the film takes it.
+        """Into how many independent parts a pixel's samples fall; None where each sample is one.
         With one part alone the error of a pixel is not known."""
         return None if self.sampler == "independent" else self.replicates
 
