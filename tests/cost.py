@@ -34,7 +34,8 @@ and the median of the {rounds} ratios with its 95 % interval.
 | bytes of new arrays | {bytes[0]:,} | {bytes[1]:,} | {bytes_ratio:.3f} |
 | milliseconds | {ms[0]:.1f} | {ms[1]:.1f} | {ratio:.3f} ({low:.3f} to {high:.3f}) |
 
-{remark}
+{remark} With lamps sampled by solid angle, the default now, a wave makes {default[calls]} calls and
+{default[bytes]:,} bytes.
 
 ```text
 python tests/cost.py --against {before} --rounds {rounds}
@@ -90,8 +91,9 @@ def interval(values, confidence=0.95):
     return float(np.median(values)), float(values[k - 1]), float(values[n - k])
 
 
-def section(before, now, counts, times):
-    """The section from the names of the two commits, their counts and the seconds (rounds, 2)."""
+def section(before, now, counts, times, default):
+    """The section from the names of the two commits, their counts, the seconds (rounds, 2), and the count of
+    what is the default now."""
     ratio, low, high = interval(times[:, 1] / times[:, 0])
     rays = [count["rays"] for count in counts]
     return SECTION.format(
@@ -110,6 +112,7 @@ def section(before, now, counts, times):
         ratio=ratio,
         low=low,
         high=high,
+        default=default,
         remark=SAME.format(rays=rays[0]) if rays[0] == rays[1] else OTHER.format(rays=rays),
     )
 
@@ -136,7 +139,7 @@ def main():
     with checkout(asked.against) as other:
         counts = [child(folder) for folder in (other, ROOT)]
         print(*differences(counts), sep="\n")
-        new = section(*names, counts, alternations((other, ROOT), asked.rounds))
+        new = section(*names, counts, alternations((other, ROOT), asked.rounds), child(ROOT, "--default"))
     print(new)
     asked.out.write_text(put(text_of(asked.out), "cost", new), encoding="utf-8")
 

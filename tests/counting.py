@@ -6,6 +6,7 @@ works on any commit. What a NumPy function does inside counts as one call; a vie
 
     python tests/counting.py FOLDER            calls and bytes, in all and by module and call, as JSON
     python tests/counting.py FOLDER --seconds  the same wave without counting: seconds
+    python tests/counting.py FOLDER --default  lamps sampled as they are unless one asks for area
 """
 
 import argparse
@@ -162,13 +163,18 @@ class Finder(importlib.abc.MetaPathFinder):
         return spec
 
 
-def job():
-    """A function that traces one wave of cornell_unit by the path integrator; lamps are sampled by area."""
+def job(by_area=True):
+    """A function that traces one wave of cornell_unit by the path integrator.
+
+    by_area: whether lamps are sampled by area, once the only way, or as the commit has it by default.
+    """
     import tracer
     from tracer.engine import waves
     from tracer.integrator.steps import RIGHT
 
-    options = {"width": SIDE, "height": SIDE, "spp": SPP, "max_depth": DEPTH, "light_sampling": "area"}
+    options = {"width": SIDE, "height": SIDE, "spp": SPP, "max_depth": DEPTH}
+    if by_area:
+        options["light_sampling"] = "area"
     known = {field.name for field in dataclasses.fields(tracer.Settings)}
     settings = tracer.Settings(**{name: value for name, value in options.items() if name in known})
     scene = tracer.load("cornell_unit").at(settings)
@@ -176,9 +182,9 @@ def job():
     return lambda: waves.trace(scene, settings, RIGHT, task)
 
 
-def counted():
+def counted(by_area=True):
     """What a wave costs, after one that nobody counts."""
-    trace = job()
+    trace = job(by_area)
     trace()
     CALLS.clear()
     BYTES.clear()
@@ -206,11 +212,12 @@ def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("folder", type=Path, help="a checkout of castray")
     words.add_argument("--seconds", action="store_true")
+    words.add_argument("--default", action="store_true")
     asked = words.parse_args()
     sys.path.insert(0, str(asked.folder.resolve()))
     if not asked.seconds:
         sys.meta_path.insert(0, Finder())
-    print(json.dumps(seconds() if asked.seconds else counted()))
+    print(json.dumps(seconds() if asked.seconds else counted(not asked.default)))
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ import tracer
 from tracer import Settings
 from tracer.bsdf.microfacet import DISTRIBUTIONS
 
+pytestmark = pytest.mark.filterwarnings("error")
+
 SHINES = {"emitter": {"type": "area", "radiance": 10.0}}
 ABOVE = [{"rotate": [1, 0, 0], "angle": 90}, {"translate": [0, 2.5, 1]}]
 LIGHTS = {

@@ -9,6 +9,8 @@ import tracer
 from lessons import zoo
 from tracer import Settings
 
+pytestmark = pytest.mark.filterwarnings("error")
+
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("name", slow_but(tracer.built_in_scenes(), "furnace", "cornell_unit"))
