@@ -179,6 +179,12 @@ AIMS = ("corners", "edges")
 WAYS = ("anywhere", "grazing", "along a neighbour")
 
 
+def camera_in(place):
+    """A camera in the middle of a room."""
+    middle = np.array(place.middle)
+    return Camera(middle, middle + [0.0, 0.0, place.size], np.array([0.0, 1.0, 0.0]), 60.0)
+
+
 class Room(NamedTuple):
     """A scene and what its definition says about its faces."""
 
@@ -198,10 +204,10 @@ class Room(NamedTuple):
 def room(name, place, dtype):
     """One of the rooms in one precision."""
     shapes = rooms(place)[name]()
-    middle = np.array(place.middle)
-    camera = Camera(middle, middle + [0.0, 0.0, 1.0], np.array([0.0, 1.0, 0.0]), 40.0)
     surfaces = tuple(Surface(shape, "white") for shape in shapes)
-    scene = Scene(Definition(name, surfaces, {"white": Diffuse(np.ones(3))}, camera, 8, 8), dtype)
+    scene = Scene(
+        Definition(name, surfaces, {"white": Diffuse(np.ones((3, 1)))}, camera_in(place), 8, 8), dtype
+    )
     side = -1.0 if name == "glass" else 1.0
     planes = [shape.planes() for shape in shapes]
     n = side * np.concatenate([p for p, _ in planes], axis=1)
@@ -218,7 +224,7 @@ def room(name, place, dtype):
     own, k = np.nonzero(~sealed[:, None] & np.ones(4, bool))
     face, other, k = np.append(face, own), np.append(other, own), np.append(edge, k)
     spots = face.astype(np.int32), corners[:, k, other], corners[:, (k + 1) % 4, other]
-    tilt = 32.0 * np.finfo(dtype).eps * (1.0 + np.abs(middle).max() / place.size)
+    tilt = 32.0 * np.finfo(dtype).eps * (1.0 + np.abs(place.middle).max() / place.size)
     return Room(scene, side, n, corners, (height > near).any(axis=1), spots, tilt, np.flatnonzero(sealed))
 
 
