@@ -4,6 +4,7 @@ Chi-square at 1 %, shared out by Sidak's formula among the tests of one kind.
 """
 
 from collections import deque
+from unittest.mock import patch
 
 import lattice as search
 import numpy as np
@@ -170,19 +171,23 @@ def test_uses_and_depths_are_independent_over_pixels(suite_seed):
     assert min(uniform(four, 5) for four in fours) > sidak(len(fours))
 
 
-@pytest.mark.statistical
 def test_deep_vertices_are_not_tied_to_those_before(suite_seed):
-    """Within pixels, over samples: the coordinates of a vertex DEPTHS further on. Without the multiplier, the
-    broken twin, they are the same but for a shift."""
-    sample = np.tile(np.arange(256, dtype=np.uint32), 64)
-    pixel = np.repeat(np.arange(64, dtype=np.uint32), 256)
-    numbers = Lattice(suite_seed % 2**32, np.float64)
-    near, far = (numbers(pixel, sample, np.full(pixel.size, d), "bsdf")[1] for d in (1, 1 + DEPTHS))
-    assert uniform(np.stack((near, far)), 12) > sidak(1)
-    apart = ((far - near) % 1.0).reshape(64, 256)
-    assert np.ptp(apart, axis=1).min() > 0.5
-    turned = numbers(pixel, sample, np.full(pixel.size, 1), "bsdf")[1] * 1.0
-    assert np.ptp((turned - near).reshape(64, 256), axis=1).max() < 1e-9
+    """Within a pixel the coordinates of a vertex DEPTHS further on are not those of the vertex but for a
+    shift, in 31 of 32 pixels: its multiplier, 1 + 2^j odd, may be near 1 by chance. 0.85 is asked. Without
+    it, the broken twin, they are so everywhere."""
+    sample = np.tile(np.arange(256, dtype=np.uint32), 200)
+    pixel = np.repeat(np.arange(200, dtype=np.uint32), 256)
+    numbers, free = Lattice(suite_seed % 2**32, np.float64), []
+    for deep in (1 + DEPTHS, 1 + 2 * DEPTHS):
+        near, far = (numbers(pixel, sample, np.full(pixel.size, d), "bsdf")[1] for d in (1, deep))
+        apart = ((far - near) % 1.0).reshape(200, 256)
+        free.append(np.mean(np.ptp(apart, axis=1) > 0.8))
+    assert min(free) > 0.85
+    with patch("tracer.sampler.lattice._multiplier", lambda pixel, *_: np.ones_like(pixel)):
+        far = numbers(pixel, sample, np.full(pixel.size, 1 + DEPTHS), "bsdf")[1]
+    tied = (far - numbers(pixel, sample, np.ones(pixel.size, int), "bsdf")[1]) % 1.0
+    tied = (tied.reshape(200, 256) - tied.reshape(200, 256)[:, :1] + 0.5) % 1.0
+    assert np.ptp(tied, axis=1).max() < 1e-9
 
 
 def test_numbers_do_not_depend_on_how_many_samples_there_are(suite_seed):
