@@ -129,7 +129,11 @@ def variance_and_error(samples):
 
 
 def close(samples, value, sigmas=4.0, bar=0.01, slack=0.0):
-    """Whether the mean of samples (N,) is the value but for `sigmas` standard errors, at most `bar` of it."""
-    error = samples.std(ddof=1) / np.sqrt(samples.size)
+    """Whether the mean of samples (N,) is the value but for `sigmas` standard errors, at most `bar` of it;
+    a mean that is off by three times that (the broken twin) is not."""
+    mean, error = samples.mean(), samples.std(ddof=1) / np.sqrt(samples.size)
     assert sigmas * error <= bar * abs(value) + 1e-300, f"standard error {error / value}"
-    return abs(samples.mean() - value) <= sigmas * error + (1e-12 + slack) * abs(value)
+    allowed = sigmas * error + (1e-12 + slack) * abs(value)
+    for way in (-3.0, 3.0):
+        assert abs((1.0 + way * bar) * mean - value) > allowed, "the fault is not seen"
+    return abs(mean - value) <= allowed

@@ -24,9 +24,13 @@ class Sampler:
     expect: Callable
     faults: tuple = ()
 
-    def p(self, seed, fault=None):
-        """p-value of the samples under one seed, against the density or a wrong one."""
-        counts, shares = self.count(seed), shares_of(self)
+    def p(self, seed):
+        """p-value of the samples under one seed."""
+        return self.against(self.count(seed))
+
+    def against(self, counts, fault=None):
+        """p-value of counted samples, against the density or a wrong one."""
+        shares = shares_of(self)
         if fault == "leaning":
             shares = leaning(shares)
         elif fault:

@@ -51,7 +51,8 @@ def _estimates(bits):
 def _judge_estimates(sums, chunks):
     key, worst, _ = max(sums["found"], key=lambda row: row[1])
     widest = max(bound for _, _, bound in sums["found"])
-    text = f"{truth.SIGMAS * worst:.2f} ({key}), of {len(sums['found'])}; 4 are up to {100 * widest:.2f} %"
+    text = f"{truth.SIGMAS * worst:.2f} standard errors ({key}), the worst of {len(sums['found'])}; "
+    text += f"{truth.SIGMAS:g} of them are at most {100 * widest:.2f} % of the value"
     return text, worst <= 1.0 and widest <= truth.PERCENT
 
 
@@ -66,8 +67,8 @@ def figures():
     for bits in (64, 32):
         yield Figure(
             f"exact-estimates-{bits}",
-            "estimates of exact values: the worst in standard errors",
-            "4, which are at most 1 % of the value",
+            "estimates of exact values",
+            "4 standard errors, at most 1 %",
             "pbrt 2.5 %; nori 1 % of t-tests",
             f"float{bits}",
             CHUNKS,

@@ -59,7 +59,7 @@ def _judge_weight(bits):
 
     def judge(sums, chunks):
         above = (sums["most_weight"] - 1.0) / eps
-        return f"1 {above:+.0f} eps", above <= 8.0
+        return f"1 {'-' if above < 0 else '+'} {abs(above):.0f} eps", above <= 8.0
 
     return judge
 

@@ -12,6 +12,7 @@ from densities.lights import BALL, ready_sky, sky
 from stats import chi_square, mean_and_error, sidak
 
 import tracer
+from lessons import zoo
 from tracer import Settings
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
@@ -66,6 +67,20 @@ def test_s56_every_loop_finds_the_same_light(suite_seed, tmp_path, names, precis
     assert (error < 0.02 * mean).all()
 
 
+@pytest.mark.statistical
+@pytest.mark.parametrize("name", LIGHTS)
+def test_s56_light_samples_a_third_too_bright_are_caught(suite_seed, tmp_path, name):
+    """The broken twin: one loop's of two that both need them, and of each kind of light."""
+    scene, wrong = stage(tmp_path, name), zoo.changed(light_term=brighter)
+    right = checks.samples(scene, settings(suite_seed, integrator="path"))
+    twin = checks.samples(scene, settings(suite_seed + 1, integrator="direct"), wrong)
+    assert checks.agreement([right], [twin]) > 1.0
+
+
+def brighter(*arguments):
+    return 4 / 3 * zoo.RIGHT.light_term(*arguments)
+
+
 @pytest.mark.parametrize("name", ["point", "directional"])
 @pytest.mark.parametrize("options", [{"integrator": "walk"}, {"strategy": "bsdf"}], ids=["walk", "bsdf"])
 def test_bounces_alone_refuse_a_light_they_never_meet(tmp_path, name, options):
@@ -103,6 +118,7 @@ def test_a_constant_sky_over_an_open_floor_gives_its_albedo(suite_seed):
         radiance = checks.samples(scene, settings(suite_seed, 2048, strategy=strategy))
         mean, error = mean_and_error(radiance)
         assert checks.off(mean, 1.0, error, 1e-5) <= 1.0 and (error < 0.01).all()
+        assert checks.off(1.08 * mean, 1.0, error, 1e-5) > 1.0  # the broken twin
     bounced = checks.samples(scene, settings(suite_seed, 16, strategy="bsdf"))
     assert np.abs(bounced - 1.0).max() < 1e-6
 
@@ -177,4 +193,7 @@ def test_all_kinds_are_chosen_by_their_power(suite_seed, tmp_path):
     share = np.array([power[name] for name in only.light_names])
     share /= share.sum()
     assert np.allclose(light.pick, share[light.light])
-    assert chi_square(np.bincount(light.light, minlength=4), 60_000 * share) > sidak(1)
+    counts = np.bincount(light.light, minlength=4)
+    assert chi_square(counts, 60_000 * share) > sidak(1)
+    wrong = share * [1.0, 1.0, 1.0, 0.9]  # the broken twin: one light's power a tenth too small
+    assert chi_square(counts, 60_000 * wrong / wrong.sum()) < sidak(1)

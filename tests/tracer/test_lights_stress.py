@@ -233,3 +233,5 @@ def test_many_lamps_light_a_room_whichever_way_they_are_found(suite_seed):
         assert checks.agreement([found[0]], [other]) <= 1.0
     mean, error = mean_and_error(found[0])
     assert (error < 0.04 * mean).all()
+    for other in found[1:]:  # the broken twin: a fifth too bright
+        assert checks.agreement([1.2 * found[0]], [other]) > 1.0

@@ -48,9 +48,9 @@ LAMP = {
 }
 
 
-def ball(name, strategy="mis", precision=32, spp=64, **options):
+def ball(name, strategy="mis", precision=32, spp=64, steps=RIGHT, **options):
     settings = Settings(spp=spp, precision=precision, strategy=strategy, roulette="off", **options)
-    return samples(room(MATERIALS[name]), settings)
+    return samples(room(MATERIALS[name]), settings, steps)
 
 
 @pytest.mark.statistical
@@ -62,6 +62,16 @@ def test_s54_what_loses_nothing_cannot_be_seen(name, precision):
     if "plastic" not in name:  # its two lobes share the light by chance; of the others each sample is 1
         assert (error < 1e-6).all()
     assert (np.abs(mean - 1) < z_limit(12) * error + (2e-5 if precision == 32 else 1e-9)).all()
+
+
+@pytest.mark.statistical
+@pytest.mark.parametrize("name", LOSSLESS)
+def test_s54_a_percent_more_at_every_bounce_is_caught(name):
+    """The broken twin of the test above and of the one below, which looks for too much light only."""
+    wrong = replace(RIGHT, throughput=lambda *a: RIGHT.throughput(*a) * RIGHT.throughput(*a).dtype.type(1.01))
+    spp = 1024 if "plastic" in name else 64
+    mean, error = mean_and_error(ball(name, "bsdf", 32, spp, wrong, max_depth=200))
+    assert (mean - 1 > z_limit(12) * error + 2e-5).all()
 
 
 @pytest.mark.slow

@@ -98,7 +98,10 @@ VARIED = ("pixel", "sample", "depth", "seed")
 def test_numbers_are_uniform_along_every_axis(suite_seed, varied, use):
     u = axes(varied, suite_seed, use)
     bins = {1: 256, 2: 16, 3: 6}[u.shape[0]]
-    assert uniform(u, bins if varied != "seed" else bins // 2) > sidak(len(VARIED) * len(USES))
+    bins = bins if varied != "seed" else bins // 2
+    assert uniform(u, bins) > sidak(len(VARIED) * len(USES))
+    u[0] **= 1.1 if varied != "seed" else 1.5  # the broken twins: small numbers a little too common
+    assert uniform(u, bins) < sidak(len(VARIED) * len(USES))
 
 
 @pytest.mark.statistical
@@ -130,6 +133,7 @@ def test_equal_words_are_as_rare_as_chance_has_them(suite_seed):
         repeats = n - np.unique(row).size
         low, high = distributions.poisson.interval(0.999, n * n / 2**33)
         assert low <= repeats <= high
+        assert n - np.unique(np.floor(row * 2.0**29)).size > high  # the broken twin: words of 29 bits
 
 
 @pytest.mark.statistical

@@ -15,6 +15,7 @@ from materials import MATERIALS
 from stats import mean_and_error, z_limit
 
 import tracer
+from lessons import zoo
 from tracer import Settings
 from tracer.bsdf.microfacet import DISTRIBUTIONS
 
@@ -96,6 +97,20 @@ def test_s56_the_strategies_agree_for_every_light_on_every_material(
         assert (np.abs(a - b) < z_limit(3 * 3 * PAIRS) * np.hypot(error_a, error_b) + 1e-5).all(), found
 
 
+@pytest.mark.slow
+@pytest.mark.statistical
+@pytest.mark.parametrize("light", LIGHTS)
+def test_s56_light_samples_twice_too_bright_are_caught(suite_seed, folder, light):
+    """The broken twin: on the diffuse ball, under each light."""
+    wrong = zoo.changed(light_term=lambda *arguments: 2 * zoo.RIGHT.light_term(*arguments))
+    scene, found = ball("diffuse", light, folder), []
+    for k, steps in enumerate((zoo.RIGHT, wrong)):
+        settings = Settings(spp=64, strategy="light", max_depth=4, roulette="off", seed=suite_seed + k)
+        found.append(mean_and_error(samples(scene, settings, steps)))
+    (a, error_a), (b, error_b) = found
+    assert (np.abs(a - b) > z_limit(3 * 3 * PAIRS) * np.hypot(error_a, error_b) + 1e-5).any(), found
+
+
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("kind", DISTRIBUTIONS)
@@ -112,6 +127,8 @@ def test_s37_the_picture_of_the_smoothest_rough_surface_is_the_mirrors(
         for k, material in enumerate((f"{kind} {name}", f"smooth {name}"))
     ]
     a, b = pictures
-    off = np.abs(a.rgb - b.rgb) / np.sqrt(a.variance + b.variance + 1e-12)
-    assert off.max() < max(3.0, z_limit(8 * off.size))
+    error = np.sqrt(a.variance + b.variance + 1e-12)
+    limit = max(3.0, z_limit(8 * error.size))
+    assert (np.abs(a.rgb - b.rgb) / error).max() < limit
+    assert (np.abs(1.5 * a.rgb - b.rgb) / error).max() > limit  # the broken twin
     assert a.dropped == b.dropped == 0

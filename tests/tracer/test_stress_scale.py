@@ -86,6 +86,8 @@ def test_s02_double_precision_shows_a_scene_ten_thousand_kilometres_away(suite_s
     )
     other = tracer.render(loaded("cornell_unit"), dataclasses.replace(same.settings, seed=suite_seed + 1))
     assert z_test(picture, other).same
+    brighter = dataclasses.replace(picture, rgb=1.05 * picture.rgb)  # the broken twin
+    assert not z_test(brighter, other).same
     assert picture.rays == same.rays and np.abs(picture.rgb - same.rgb).mean() < 1e-7 * same.rgb.mean()
 
 

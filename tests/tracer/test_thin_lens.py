@@ -71,6 +71,8 @@ def test_rays_start_evenly_over_the_aperture(suite_seed):
     cells = np.histogram2d(x * x + y * y, np.arctan2(y, x), bins=(10, 20), range=[(0, 1), (-np.pi, np.pi)])[0]
     assert cells.sum() == n
     assert chi_square(cells, np.full(cells.shape, n / cells.size)) > sidak(1)
+    inner = np.linspace(1.06, 0.94, 10)[:, None] * np.full(cells.shape, n / cells.size)
+    assert chi_square(cells, inner) < sidak(1)  # the broken twin: 6 % more in the middle than at the rim
 
 
 @pytest.mark.statistical
@@ -84,6 +86,7 @@ def test_a_lamp_out_of_focus_is_a_disk_of_the_size_that_geometry_gives(suite_see
     y, x = np.nonzero(blurred)
     reach = np.hypot(x + 0.5 - SIZE / 2, y + 0.5 - SIZE / 2).max()
     assert radius - 1.5 < reach < radius + 1
+    assert not radius - 1.5 < 1.2 * reach < radius + 1  # the broken twin
 
 
 @pytest.mark.statistical
@@ -94,6 +97,7 @@ def test_blur_moves_light_and_loses_none(suite_seed):
     expected = (0.8 / (2 * 8 * np.tan(np.radians(FOV / 2)))) ** 2
     assert abs(share - expected) < 4 * np.sqrt(expected / n)
     assert 4 * np.sqrt(expected / n) < 0.05 * expected
+    assert abs(0.9 * share - expected) > 4 * np.sqrt(expected / n)  # the broken twin
 
 
 def test_in_focus_a_lens_shows_what_a_pinhole_shows():
