@@ -37,7 +37,7 @@ format: .venv/.dev
 seeds: .venv/.dev
 	.venv/bin/python tests/seeds.py
 
-# Hours; may be stopped and goes on where it was. `make test` does one percent of it.
+# Half an hour on two cores; may be stopped and goes on where it was. `make test` does one percent of it.
 accuracy: .venv/.dev
 	.venv/bin/python tests/accuracy.py
 

@@ -55,7 +55,7 @@ def figures():
             "0",
             "logged, not published",
             f"float{precision}",
-            120,
+            180,
             n,
             _invalid(precision),
             judge,
