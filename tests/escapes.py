@@ -15,10 +15,10 @@ PARTS = 16  # a wave is aimed at one of so many parts of the mesh: it meets fewe
 
 
 @cache
-def closed_mesh(place, dtype, subdivisions=3):
+def closed_mesh(place, dtype, subdivisions=3, radius=None):
     """Kernel of the mesh, its vertices (V, 3) as the precision has them, and its faces."""
     vertices, faces = icosphere(subdivisions)
-    vertices = vertices * (1.0 if place[0] == 0 else 1000.0) + place
+    vertices = vertices * (radius or (1.0 if place[0] == 0 else 1000.0)) + place
     return Mesh("ball", vertices, faces).kernel(0, 1.0, dtype), vertices.astype(dtype), faces
 
 
@@ -37,9 +37,9 @@ def targets(vertices, faces, aim, n, rng):
     return a + s * (b - a) + t * (c - a)
 
 
-def escapes(place, aim, dtype, n, seed, kernel=None, fine=3):
+def escapes(place, aim, dtype, n, seed, kernel=None, fine=3, radius=None):
     """How many of n rays from inside the mesh meet nothing."""
-    built, vertices, faces = closed_mesh(place, dtype, fine)
+    built, vertices, faces = closed_mesh(place, dtype, fine, radius)
     kernel = kernel or built
     rng = np.random.default_rng(seed)
     middle, size = vertices.astype(float).mean(axis=0), np.ptp(vertices[:, 0].astype(float)) / 2

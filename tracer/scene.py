@@ -143,6 +143,7 @@ class Scene:
             for light, k in enumerate(shining):
                 radiance[:, light] = self.definition.surfaces[k].radiance
             self.lights = Lights(faces, radiance, others, ball, self.dtype, self.light_sampling)
+        self._beside_lamps = start.neighbours(self._faces, np.flatnonzero(self.light_of >= 0))
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
@@ -151,11 +152,13 @@ class Scene:
         """
         return self._closest(Rays.towards(o, d, source, touched=[]))
 
-    def _closest(self, rays):
+    def _closest(self, rays, distance=None):
+        """As intersect; distance: (N,) to the point that rays are aimed at, if they are."""
         t, primitive = self._nearest(rays)
-        lanes, moved = self._moved(rays)
-        if lanes.size:
-            t[lanes], primitive[lanes] = self._nearest(moved)
+        if rays.touched:
+            lanes, moved, _ = start.moved(self._faces, rays, distance)
+            if lanes.size:
+                t[lanes], primitive[lanes] = self._nearest(moved)
         if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
             none = ~np.isfinite(rays.o + rays.d).all(axis=0)
             t[none], primitive[none] = np.inf, -1
@@ -174,14 +177,6 @@ class Scene:
                 np.copyto(primitive, met, where=nearer)
             t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
         return t, primitive
-
-    def _moved(self, rays):
-        """The lanes whose starts had to be moved off other faces, and their rays from there; see start."""
-        if not rays.touched:
-            return np.empty(0, np.intp), None
-        lanes, others = (np.concatenate(column) for column in zip(*rays.touched, strict=True))
-        lanes, o = start.clear(self._faces, rays.o, rays.source, lanes, others)
-        return lanes, rays.take(lanes)._replace(o=o.astype(self.dtype))
 
     def hit(self, o, d, t, primitive):
         """Everything about the points o + t d, all of which lie on a primitive."""
@@ -257,14 +252,15 @@ class Scene:
 
     def occluded(self, hit, light):
         """Whether anything lies between each hit and its point on a light, (N,)."""
-        rays, distance = self._between(
+        rays, distance, hidden = self._between(
             hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
         blocked = self._blocked(rays, distance)
-        lanes, moved = self._moved(rays)
-        if lanes.size:
-            blocked[lanes] = self._blocked(moved, distance[lanes])
-        return blocked
+        if rays.touched:
+            lanes, moved, distance = start.moved(self._faces, rays, distance)
+            if lanes.size:
+                blocked[lanes] = self._blocked(moved, distance)
+        return blocked if hidden is False else blocked | hidden
 
     def _blocked(self, rays, distance):
         blocked = np.zeros(distance.shape, bool)
@@ -275,21 +271,27 @@ class Scene:
     def blocker(self, vertex, event):
         """First shape (N,) between the hits and light points of recorded events, -1 for none, and its
         distance, inf for none. vertex, event: columns of a HIT and a LIGHT."""
-        rays, distance = self._between(
+        rays, distance, hidden = self._between(
             *(vertex[name] for name in ("p", "ng", "primitive")),
             *(event[name] for name in ("q", "nq", "primitive", "wi")),
         )
-        t, primitive = self._closest(rays)
+        t, primitive = self._closest(rays, distance)
+        t, primitive = np.where(hidden, 0.0, t), np.where(hidden, rays.source, primitive)
         could_shine = (event["f"].max(axis=0) > 0.0) & (event["Le"].max(axis=0) > 0.0)
         blocked = (t < distance) & (primitive >= 0) & could_shine & ~event["visible"]
         return np.where(blocked, self.shape_of[primitive], -1), np.where(blocked, t, np.inf)
 
     def _between(self, p, n, source, q, nq, target, wi):
-        """Rays from p to q, both moved off their surfaces towards each other, and their lengths (N,)."""
-        o = leave(p, n, self._bound(p, n, source), wi)
-        gap = leave(q, nq, self._bound(q, nq, target), -wi) - o
+        """Rays from p to q, both moved off their surfaces towards each other, their lengths (N,), and whether
+        the face they start on hides an end that had to be moved, (N,)."""
+        hidden = False
+        o, end = leave(p, n, self._bound(p, n, source), wi), leave(q, nq, self._bound(q, nq, target), -wi)
+        if self._beside_lamps.size:
+            start.clear_ends(self._faces, self._beside_lamps, end, target)
+            hidden = dot(n, end - o) * dot(n, wi) < 0.0
+        gap = end - o
         distance = length(gap)
-        return Rays.towards(o, gap / distance, source, target, []), distance
+        return Rays.towards(o, gap / distance, source, target, []), distance, hidden
 
     def frame(self, n, p, primitive):
         """The local frames at points (3, N) with shading normals n: the surface's u runs along s where the

@@ -2,6 +2,7 @@
 
 import numpy as np
 from continuation import AIMS, KINDS, PLACES, WAYS, continuation
+from lamps_outside import lit_from_outside
 from white_room import segments
 
 from figures.figure import Figure
@@ -80,3 +81,17 @@ def figures():
                 lambda seed, place=place, bits=bits: segments(place, bits, seed),
                 _dark,
             )
+    n = 50_000
+    for dtype in (np.float32, np.float64):
+        bits = np.dtype(dtype).itemsize * 8
+        yield Figure(
+            f"lamps-outside-{bits}",
+            "shadow rays from a closed room, half from edges and corners, that reach a lamp outside",
+            "0",
+            "we know of none",
+            f"float{bits}",
+            20,
+            n,
+            lambda seed, dtype=dtype: {"lit": lit_from_outside(dtype, n, seed // 1000)},
+            lambda sums, chunks: (str(sums["lit"]), sums["lit"] == 0),
+        )

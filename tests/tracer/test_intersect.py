@@ -69,7 +69,7 @@ TURN = [{"rotate": [1, 2, 3], "angle": 37.0}]
 @both
 @scaled
 @pytest.mark.parametrize("shift", [(0, 0, 0), (3, -2, 5)], ids=["here", "there"])
-def test_a_rectangle_is_never_met_from_itself(suite_seed, shift, scale, dtype):
+def test_s09_a_rectangle_is_never_met_from_itself(suite_seed, shift, scale, dtype):
     scene = scene_of([{"type": "rectangle", "to_world": TURN}], dtype, scale, shift)
     rays = 4000
     o = np.array(shift).reshape(3, 1) * scale + directions(rays, suite_seed, np.float64) * 2 * scale
@@ -87,7 +87,7 @@ def test_a_rectangle_is_never_met_from_itself(suite_seed, shift, scale, dtype):
 @both
 @scaled
 @pytest.mark.parametrize("kind", ["sphere", "cube"])
-def test_a_convex_body_is_left_from_outside_and_crossed_from_inside(suite_seed, kind, scale, dtype):
+def test_s10_a_convex_body_is_left_from_outside_and_crossed_from_inside(suite_seed, kind, scale, dtype):
     """Outwards nothing is met. Inwards its far side is, at a distance that is not rounding."""
     scene = scene_of([{"type": kind, "to_world": TURN}], dtype, scale)
     hit, wi, t, primitive = left_again(scene, scale, 6000, suite_seed, dtype)
@@ -121,7 +121,7 @@ def test_a_fixed_offset_is_caught_hitting_itself(suite_seed):
 
 @both
 @pytest.mark.parametrize("shift", [(0, 0, 0), (7, -3, 2)])
-def test_rays_in_the_planes_of_a_cubes_faces_are_not_lost(shift, dtype):
+def test_s44_rays_in_the_planes_of_a_cubes_faces_are_not_lost(shift, dtype):
     """0 times infinity: each ray runs along a face, or along an edge, of a cube that it does meet."""
     kernel = Cube("c", tracer_matrix(shift)).kernel(0, 10.0, dtype)
     o, d = [], []

@@ -20,7 +20,7 @@ placed = pytest.mark.parametrize("place", PLACES, ids=["origin", "far"])
 @both
 @placed
 @pytest.mark.parametrize("aim", AIMS)
-def test_nothing_escapes_a_closed_mesh(suite_seed, aim, place, dtype):
+def test_s04_s05_nothing_escapes_a_closed_mesh(suite_seed, aim, place, dtype):
     assert escapes(place, aim, dtype, 3_000, suite_seed) == 0
 
 
@@ -28,7 +28,7 @@ def test_nothing_escapes_a_closed_mesh(suite_seed, aim, place, dtype):
 @both
 @placed
 @pytest.mark.parametrize("aim", AIMS)
-def test_nothing_of_many_rays_escapes_a_closed_mesh(suite_seed, aim, place, dtype):
+def test_s04_s05_nothing_of_many_rays_escapes_a_closed_mesh(suite_seed, aim, place, dtype):
     assert escapes(place, aim, dtype, 40_000, suite_seed + 1) == 0
 
 
@@ -63,7 +63,7 @@ def test_the_usual_triangle_test_is_caught_letting_rays_through(suite_seed, dtyp
 
 
 @both
-def test_rays_along_the_axes_through_corners_do_not_escape(dtype):
+def test_s44_rays_along_the_axes_through_corners_do_not_escape(dtype):
     """Through the six corners of an octahedron, along the axes, and through its edges, with one zero."""
     corners = np.concatenate((np.eye(3), -np.eye(3)))
     faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]

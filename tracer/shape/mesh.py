@@ -8,7 +8,7 @@ from tracer.frame import dot, normalize
 from tracer.settings import TracerError
 from tracer.shape import inside
 from tracer.shape.chart import Chart
-from tracer.shape.mesh_kernel import MeshKernel
+from tracer.shape.mesh_kernel import MeshKernel, planes_through
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,10 @@ class Mesh:
 
     def planes(self):
         """The plane of each triangle."""
-        n = self._cross()
-        n = (n / np.linalg.norm(n, axis=1, keepdims=True)).T
+        a, b, c = (self.vertices[self.faces[:, k]].T for k in range(3))
+        n, on = planes_through(a, b, c)
         n = -n if self.flip_normals else n
-        return n, (n * self.vertices[self.faces[:, 0]].T).sum(axis=0)
+        return n, dot(n, on)
 
     @property
     def across(self):
@@ -99,17 +99,23 @@ class Mesh:
         return np.stack(((d22 * q1 - d12 * q2) / det, (d11 * q2 - d12 * q1) / det))
 
     def put_inside(self, p, face):
-        """Points (3, N) near triangles, moved along the plane into them where rounding left them outside.
+        """Points (3, N) near triangles, moved to the nearest edge where rounding left them outside.
 
         A grazing ray's distance, and with it the point, slides by the rounding of the plane over the cosine.
         """
         v, w = self.barycentric(p, face)
-        outside = np.flatnonzero((v < 0.0) | (w < 0.0) | (v + w > 1.0))
+        outside = np.flatnonzero(~((v >= 0.0) & (w >= 0.0) & (v + w <= 1.0)))  # slivers have no v and w
         if outside.size:
-            v, w = np.maximum(v[outside], 0.0), np.maximum(w[outside], 0.0)
-            total = np.maximum(v + w, 1.0)
-            a, b, c = (self.vertices[self.faces[face[outside], k]].T.astype(p.dtype) for k in range(3))
-            p[:, outside] = a + (v / total) * (b - a) + (w / total) * (c - a)
+            q, best = p.take(outside, axis=1), np.inf
+            corners = [self.vertices[self.faces[face[outside], k]].T.astype(p.dtype) for k in range(3)]
+            for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+                side, out = b - a, q - a
+                size = dot(side, side)
+                share = np.clip(dot(out, side) / np.where(size > 0.0, size, 1.0), 0.0, 1.0)
+                at = a + share * side
+                away = dot(q - at, q - at)
+                p[:, outside] = np.where(away < best, at, p[:, outside])
+                best = np.minimum(away, best)
         return p
 
     def shading_normals(self, p, face):

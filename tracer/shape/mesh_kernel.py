@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracer.frame import dot, length
+from tracer.frame import cross, dot, length
 from tracer.shape import bvh, start
 
 # Lanes times triangles in flight: small enough to stay in cache.
@@ -166,20 +166,20 @@ class MeshKernel:
         """
         o, d = rays.o.take(lane, axis=1).astype(np.float64), rays.d.take(lane, axis=1).astype(np.float64)
         n, away = self.n.take(met, axis=1), o - self.corners[0].take(met, axis=1)
-        height, cos = dot(n, away), np.maximum(np.abs(dot(n, d)), np.finfo(np.float64).tiny)
-        source, number = rays.source[lane], self.first + met
-        t = start.distance(height, np.copysign(cos, heading), o, number, source, self.others)
-        hit = np.isfinite(t)
-        blur = 4.0 * np.finfo(rays.d.dtype).eps * (np.abs(t) + np.abs(away).max(axis=0)) / cos
-        slanted = np.flatnonzero((cos < _GRAZING) & hit)
+        height, cos = dot(n, away), dot(n, d)
+        cos = np.where(cos == 0.0, np.finfo(cos.dtype).tiny, cos)
+        t, steep = -height / cos, np.abs(cos)
+        blur = 4.0 * np.finfo(rays.d.dtype).eps * (np.abs(t) + np.abs(away).max(axis=0)) / steep
+        slanted = np.flatnonzero(steep < _GRAZING)
         if slanted.size:
-            o, d = o[:, slanted], d[:, slanted]
-            depth = [dot(corner[:, met[slanted]] - o, d) / dot(d, d) for corner in self.corners]
-            least, most = np.minimum.reduce(depth), np.maximum.reduce(depth)
-            t[slanted] = np.maximum(np.clip(t[slanted], least, most), 0.0)
+            depth = [dot(corner[:, met[slanted]] - o[:, slanted], d[:, slanted]) for corner in self.corners]
+            depth = depth / dot(d[:, slanted], d[:, slanted])
+            least, most = depth.min(axis=0), depth.max(axis=0)
+            t[slanted] = np.clip(t[slanted], least, most)
             blur[slanted] = np.minimum(blur[slanted], most - least)
+        t = start.distance(t, height, heading, o, self.first + met, rays.source[lane], self.others)
         outwards = heading * self._sides(rays, lane)
-        return t, np.where(hit, t + np.copysign(blur, outwards), np.inf)
+        return t, np.where(np.isfinite(t), t + np.copysign(blur, outwards), np.inf)
 
 
 def _same_plane(n, c):
@@ -188,13 +188,29 @@ def _same_plane(n, c):
     return np.unique(digits + 0.0, axis=1, return_inverse=True)[1].reshape(-1)  # -0 + 0 is +0
 
 
+def planes_through(a, b, c):
+    """Unit normals of triangles with these corners, each (3, F), and a point of each plane; 0 without area.
+
+    Rounding tilts the product of two sides of a sliver; its planes hold the longest side all the same.
+    """
+    n = _unit(cross(b - a, c - a))
+    starts, sides = np.stack((a, b, c)), np.stack((b - a, c - b, a - c))
+    longest = np.argmax([dot(side, side) for side in sides], axis=0), slice(None), np.arange(a.shape[1])
+    along = _unit(sides[longest].T)
+    return _unit(n - dot(n, along) * along), starts[longest].T
+
+
+def _unit(v):
+    size = length(v)
+    return v / np.where(size > 0.0, size, 1.0)
+
+
 def _normals(corners, ideal):
-    """Unit normals (3, F) of triangles; the ideal ones (3, F) where rounding left no area."""
-    a, b, c = corners
-    n = np.cross(b - a, c - a, axis=0)
-    size = length(n)
-    n = np.where(size > 0.0, n / np.where(size > 0.0, size, 1.0), ideal)
-    return np.where(dot(n, ideal) < 0.0, -n, n)
+    """Unit normals (3, F) of triangles on the side of the ideal ones (3, F), which stand in where rounding
+    left no area."""
+    n, _ = planes_through(*corners)
+    side = dot(n, ideal)
+    return np.where(n.any(axis=0), np.where(side < 0.0, -n, n), ideal)
 
 
 def _shear(vertices, corners, axes, sheared):

@@ -132,7 +132,8 @@ class RectangleKernel:
         which of `lanes` may touch the rectangle."""
         if met.size:
             o, cos = rays.o.take(met, axis=1), linear(self.n, rays.d.take(met, axis=1))
-            t[met] = start.distance(-depth[met], cos, o, self.first, rays.source[met], self.others)
+            height, source = -depth[met], rays.source[met]
+            t[met] = start.distance(-height / cos, height, cos, o, self.first, source, self.others)
         lanes = lanes[rays.source[lanes] >= 0]
         if rays.touched is not None and lanes.size:
             o = rays.o.take(lanes, axis=1)

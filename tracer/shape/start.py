@@ -19,12 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.frame import cross, dot, length
+from tracer.frame import cross, dot, length, put
+from tracer.shape.rays import Rays
 
 _MARGIN = 1.5  # of two faces' error bounds: nearer starts may be on the wrong side
 _CLEAR = 0.5  # error bounds from a plane at which a start is surely on its side
 _SAME = 32.0  # machine epsilons, relative, by which corners may miss a plane they are meant to lie in
 _LEAST = 1e-6  # sine between a plane and a way that leads off it
+_PAIRS = 1 << 20  # of faces looked at together
 _PARALLEL = 8.0  # machine epsilons between the normals of planes that rounding cannot tell apart
 
 
@@ -71,13 +73,13 @@ class Faces(NamedTuple):
         return np.abs(height) <= _MARGIN * (self.bound(own, x) + self.bound(other, x))
 
 
-def distance(height, cos, o, number, source, faces):
-    """Distance (N,) along rays to planes, inf where the plane is not met.
+def distance(t, height, heading, o, number, source, faces):
+    """Distances (N,) at which planes are met, inf where they are not.
 
-    height, cos: (N,) n . o - c and n . d; o: (3, N); number, source: (N,) primitive the plane belongs to, and
-    primitive each ray starts on, -1 for none; faces: the Faces, or None.
+    t: (N,) where rays cross them; height: (N,) of the starts o (3, N) over them; heading: (N,) above 0 where
+    rays go out through the front, below 0 where they come in; number, source: (N,) primitive the plane
+    belongs to, and primitive each ray starts on, -1 for none; faces: the Faces, or None.
     """
-    t = -height / cos
     hit = t > 0.0
     if faces is not None:
         lanes = np.flatnonzero((np.abs(height) <= 2.0 * _MARGIN * faces.most) & (source >= 0))
@@ -87,8 +89,8 @@ def distance(height, cos, o, number, source, faces):
             close = faces.close(own, number, x)
             lanes = lanes[close]
             side, _ = relation(faces, own[close], number[close], x[:, close])
-            hit[lanes] = side * cos[lanes] < 0.0
-            t[lanes] = np.maximum(t[lanes], 0.0)
+            hit[lanes] = side * heading[lanes] < 0.0
+            t = np.maximum(t, 0.0)
     return np.where(hit, t, np.inf)
 
 
@@ -124,6 +126,54 @@ def _sides(faces, plane, body):
         ahead[near] = (height[:, near] > size).any(axis=0)
         behind[near] = (height[:, near] < -size).any(axis=0)
     return ahead, behind
+
+
+def neighbours(faces, own):
+    """Pairs (M,), (M,) of flat faces out of `own` (K,) and other faces that touch them and reach into their
+    front: points near there are moved by `clear`."""
+    own = own[faces.flat[own]]
+    slack = _MARGIN * (16.0 * faces.eps * faces.reach + faces.most)
+    low, high = faces.corners.min(axis=1) - slack, faces.corners.max(axis=1) + slack
+    step, found = max(1, _PAIRS // faces.c.size), [np.empty((2, 0), np.intp)]
+    for begin in range(0, own.size, step):
+        some = own[begin : begin + step]
+        near = (low[:, some, None] <= high[:, None]).all(axis=0) & (high[:, some, None] >= low[:, None]).all(
+            axis=0
+        )
+        row, other = np.nonzero(near & faces.flat & (some[:, None] != np.arange(faces.c.size)))
+        a = some[row]
+        height = dot(faces.n[:, None, other], faces.corners[:, :, a]) - faces.c[other]
+        meets = (height.min(axis=0) <= slack[other]) & (height.max(axis=0) >= -slack[other])
+        found.append(np.stack((a, other))[:, meets & _sides(faces, a, other)[0]])
+    return np.concatenate(found, axis=1)
+
+
+def moved(faces, rays, distance=None):
+    """The lanes (L,) of rays whose starts had to be moved off faces they touch, and their rays from there;
+    with the distance (N,) to the points that rays are aimed at: towards these, and the distance (L,) now."""
+    lanes, others = (np.concatenate(column) for column in zip(*rays.touched, strict=True))
+    lanes, o = clear(faces, rays.o, rays.source, lanes, others)
+    o = o.astype(rays.o.dtype)
+    again = rays.take(lanes)
+    if distance is None:
+        return lanes, again._replace(o=o), None
+    gap = again.o + distance[lanes] * again.d - o
+    distance = length(gap)
+    return lanes, Rays.towards(o, gap / distance, again.source, again.target), distance
+
+
+def clear_ends(faces, pairs, end, target):
+    """Move points (3, N) on the faces `target` (N,) off those that touch these, as starts are; pairs: as from
+    `neighbours`."""
+    lanes, others = [], []
+    for own, other in pairs.T:
+        on = np.flatnonzero(target == own)
+        x = end.take(on, axis=1).astype(np.float64)
+        on = on[faces.close(own, other, x)]
+        lanes.append(on)
+        others.append(np.full(on.size, other))
+    lanes, cleared = clear(faces, end, target, *map(np.concatenate, (lanes, others)))
+    put(end, lanes, cleared)
 
 
 def clear(faces, o, source, lanes, others):
