@@ -12,7 +12,7 @@ from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
 from tracer.resolution import refusal
 from tracer.settings import TracerError
-from tracer.shape import start
+from tracer.shape import end, start
 from tracer.shape.arrange import arrange
 from tracer.shape.chart import Charts
 from tracer.shape.rays import Rays, error_bound, leave
@@ -143,7 +143,7 @@ class Scene:
             for light, k in enumerate(shining):
                 radiance[:, light] = self.definition.surfaces[k].radiance
             self.lights = Lights(faces, radiance, others, ball, self.dtype, self.light_sampling)
-        self._beside_lamps = start.neighbours(self._faces, np.flatnonzero(self.light_of >= 0))
+        self._beside = end.beside(self._faces, self.shape_of, shining)
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
@@ -285,11 +285,11 @@ class Scene:
         """Rays from p to q, both moved off their surfaces towards each other, their lengths (N,), and whether
         the face they start on hides an end that had to be moved, (N,)."""
         hidden = False
-        o, end = leave(p, n, self._bound(p, n, source), wi), leave(q, nq, self._bound(q, nq, target), -wi)
-        if self._beside_lamps.size:
-            start.clear_ends(self._faces, self._beside_lamps, end, target)
-            hidden = dot(n, end - o) * dot(n, wi) < 0.0
-        gap = end - o
+        o, goal = leave(p, n, self._bound(p, n, source), wi), leave(q, nq, self._bound(q, nq, target), -wi)
+        if self._beside:
+            end.clear_ends(self._faces, self._beside, goal, target)
+            hidden = dot(n, goal - o) * dot(n, wi) < 0.0
+        gap = goal - o
         distance = length(gap)
         return Rays.towards(o, gap / distance, source, target, []), distance, hidden
 

@@ -8,7 +8,7 @@ from lamps_outside import lit_from_outside
 from suite import suite_seed
 
 from tracer.light.sample import AREA, LightSample
-from tracer.shape import Rectangle, start
+from tracer.shape import Rectangle, end
 
 both = pytest.mark.parametrize("dtype", DTYPES)
 
@@ -72,6 +72,6 @@ def test_a_lamp_that_touches_a_wall_is_seen_on_its_own_side_only(name, place, dt
 @pytest.mark.parametrize("inside", [True, False])
 def test_ends_left_where_rounding_put_them_are_caught(inside, dtype, monkeypatch):
     """The broken twin."""
-    monkeypatch.setattr(start, "clear_ends", lambda *columns: None)
+    monkeypatch.setattr(end, "clear_ends", lambda *columns: None)
     found = seen("fine", PLACES[0], dtype, inside)
     assert not found.all() and found.any()

@@ -79,7 +79,7 @@ class RectangleKernel:
     """Distance to the plane, then two coordinates in it.
 
     The rectangle reaches past its edge by the rounding of this very test, so that two that share an edge
-    leave no gap between them.
+    leave no gap between them. At a convex edge two stick out by as much; cubes and meshes do not.
     """
 
     faces = 1

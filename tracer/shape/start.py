@@ -19,14 +19,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.frame import cross, dot, length, put
+from tracer.frame import cross, dot, length
 from tracer.shape.rays import Rays
 
 _MARGIN = 1.5  # of two faces' error bounds: nearer starts may be on the wrong side
 _CLEAR = 0.5  # error bounds from a plane at which a start is surely on its side
 _SAME = 32.0  # machine epsilons, relative, by which corners may miss a plane they are meant to lie in
 _LEAST = 1e-6  # sine between a plane and a way that leads off it
-_PAIRS = 1 << 20  # of faces looked at together
 _PARALLEL = 8.0  # machine epsilons between the normals of planes that rounding cannot tell apart
 
 
@@ -101,14 +100,14 @@ def relation(faces, own, other, o):
     o: (3, N) starts, moved off their own faces.
     """
     out = np.copysign(1.0, dot(faces.n[:, own], o) - faces.c[own])
-    up, down = _sides(faces, own, other)
+    up, down = sides(faces, own, other)
     reaches = np.where(out > 0.0, up, down) | ~faces.flat[own]
-    ahead, behind = _sides(faces, other, own)
+    ahead, behind = sides(faces, other, own)
     side = np.where(ahead, 1, np.where(behind, -1, 0))
     return np.where(reaches, side, 0), ahead & behind
 
 
-def _sides(faces, plane, body):
+def sides(faces, plane, body):
     """Whether faces `body` reach in front of the planes of faces `plane`, and behind them, two (N,) bool.
 
     Within rounding of the scene's precision they do neither, unless all of the face is so near and yet tilted
@@ -128,26 +127,6 @@ def _sides(faces, plane, body):
     return ahead, behind
 
 
-def neighbours(faces, own):
-    """Pairs (M,), (M,) of flat faces out of `own` (K,) and other faces that touch them and reach into their
-    front: points near there are moved by `clear`."""
-    own = own[faces.flat[own]]
-    slack = _MARGIN * (16.0 * faces.eps * faces.reach + faces.most)
-    low, high = faces.corners.min(axis=1) - slack, faces.corners.max(axis=1) + slack
-    step, found = max(1, _PAIRS // faces.c.size), [np.empty((2, 0), np.intp)]
-    for begin in range(0, own.size, step):
-        some = own[begin : begin + step]
-        near = (low[:, some, None] <= high[:, None]).all(axis=0) & (high[:, some, None] >= low[:, None]).all(
-            axis=0
-        )
-        row, other = np.nonzero(near & faces.flat & (some[:, None] != np.arange(faces.c.size)))
-        a = some[row]
-        height = dot(faces.n[:, None, other], faces.corners[:, :, a]) - faces.c[other]
-        meets = (height.min(axis=0) <= slack[other]) & (height.max(axis=0) >= -slack[other])
-        found.append(np.stack((a, other))[:, meets & _sides(faces, a, other)[0]])
-    return np.concatenate(found, axis=1)
-
-
 def moved(faces, rays, distance=None):
     """The lanes (L,) of rays whose starts had to be moved off faces they touch, and their rays from there;
     with the distance (N,) to the points that rays are aimed at: towards these, and the distance (L,) now."""
@@ -160,20 +139,6 @@ def moved(faces, rays, distance=None):
     gap = again.o + distance[lanes] * again.d - o
     distance = length(gap)
     return lanes, Rays.towards(o, gap / distance, again.source, again.target), distance
-
-
-def clear_ends(faces, pairs, end, target):
-    """Move points (3, N) on the faces `target` (N,) off those that touch these, as starts are; pairs: as from
-    `neighbours`."""
-    lanes, others = [], []
-    for own, other in pairs.T:
-        on = np.flatnonzero(target == own)
-        x = end.take(on, axis=1).astype(np.float64)
-        on = on[faces.close(own, other, x)]
-        lanes.append(on)
-        others.append(np.full(on.size, other))
-    lanes, cleared = clear(faces, end, target, *map(np.concatenate, (lanes, others)))
-    put(end, lanes, cleared)
 
 
 def clear(faces, o, source, lanes, others):
