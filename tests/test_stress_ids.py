@@ -45,5 +45,7 @@ def test_no_test_is_named_for_a_case_that_is_none(found):
 
 def test_a_case_without_a_test_is_missed(tmp_path):
     """The broken twin."""
-    (tmp_path / "test_one.py").write_text("def test_s01_this():\n    pass\ndef this_s02():\n    pass\n")
+    (tmp_path / "test_one.py").write_text(
+        "def test_s01_this():\n    pass\ndef this_s02():\n    pass\n", encoding="utf-8"
+    )
     assert named(tmp_path) == {"S01": 1}
