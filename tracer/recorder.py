@@ -54,7 +54,7 @@ def record(events, scene, wave):
     rows = [[] for _ in range(wave.x.size)]
     vertex = {}
     for event in events:
-        columns = dict(event.columns) | _left_out(event, scene.dtype)
+        columns = dict(event.columns) | left_out(event, scene.dtype)
         if event.kind is HIT:
             _remember(vertex, event, wave.x.size)
         here = {name: column[..., event.lane] for name, column in vertex.items()}
@@ -66,7 +66,7 @@ def record(events, scene, wave):
     return tuple(_path(wave, lane, tuple(events)) for lane, events in enumerate(rows))
 
 
-def _left_out(event, dtype):
+def left_out(event, dtype):
     """The columns that the loop had nothing to say about."""
     return {
         f.name: np.full((*f.shape, event.lane.size), f.otherwise, dtype)

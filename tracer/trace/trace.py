@@ -1,0 +1,123 @@
+"""A recording in memory: one row per path, and one table of columns for each kind of event.
+
+Whoever judges a trace looks at this only, wherever it came from: castray's own loop, a file, the log of
+another tracer. A foreign log need not have every field: a column that was not recorded is not there.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from tracer.events import HIT, KINDS
+
+
+@dataclass(frozen=True)
+class Table:
+    """The events of one kind, in the order of path and step."""
+
+    path: np.ndarray  # (E,) row of its path
+    step: np.ndarray  # (E,) place in the path, counting from 0
+    depth: np.ndarray  # (E,) bounces before it
+    columns: dict  # field name -> (..., E); fields that were not recorded are left out
+
+    def __getitem__(self, name):
+        """The column of a field, None if it was not recorded."""
+        return self.columns.get(name)
+
+    def take(self, rows):
+        """Some rows of it: (K,) numbers or (E,) bool."""
+        columns = {name: column[..., rows] for name, column in self.columns.items()}
+        return Table(self.path[rows], self.step[rows], self.depth[rows], columns)
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What happened to some paths.
+
+    paths: name -> (..., P) column: x, y, sample, film (2), radiance (3), end (number in events.END_REASONS),
+    vertices. tables: name of a kind -> Table, for each of events.KINDS. eps: relative precision of the
+    numbers: the machine epsilon of the loop's, or half a unit of the last printed digit.
+    """
+
+    scene: Any  # a Scene, in the precision of the settings
+    settings: Any  # Settings, as far as they are known
+    paths: dict
+    tables: dict
+    eps: float
+
+    @property
+    def size(self):
+        """Number of paths."""
+        return self.paths["x"].size
+
+    @property
+    def vertices(self):
+        """Number of surfaces met by all paths together."""
+        return self.tables[HIT.name].path.size
+
+    def hit_of(self, kind):
+        """For each event of a kind (by name), the row of its path's last HIT before it; -1 if none, (E,)."""
+        return self._hits[kind]
+
+    @cached_property
+    def _hits(self):
+        hits, most = (
+            self.tables[HIT.name],
+            1 + max(table.step.max(initial=0) for table in self.tables.values()),
+        )
+        keys = hits.path * most + hits.step
+        found = {}
+        for name, table in self.tables.items():
+            before = np.searchsorted(keys, table.path * most + table.step) - 1
+            there = (before >= 0) & (hits.path.take(before) == table.path) if keys.size else before >= 0
+            found[name] = np.where(there, before, -1)
+        return found
+
+    def column(self, kind, name):
+        """A field (..., E) of all events of a kind, carried or derived; None where it was not recorded and
+        cannot be derived from what was."""
+        table = self.tables[kind]
+        if name in table.columns:
+            return table[name]
+        field = next(k for k in KINDS if k.name == kind).field(name)
+        if field.carried:
+            return None
+        hits = self.tables[HIT.name].take(self.hit_of(kind)) if kind != HIT.name else table
+        try:
+            with np.errstate(all="ignore"):
+                return field.derive(table.columns, hits.columns, self.scene)
+        except KeyError:  # made from what was not recorded
+            return None
+
+    def take(self, rows):
+        """The trace of some paths only: (K,) ascending numbers or (P,) bool."""
+        keep = np.zeros(self.size, bool)
+        keep[rows] = True
+        number = np.cumsum(keep) - 1
+        tables = {}
+        for name, table in self.tables.items():
+            here = table.take(np.flatnonzero(keep[table.path]))
+            tables[name] = replace(here, path=number[here.path])
+        return replace(self, paths={name: c[..., keep] for name, c in self.paths.items()}, tables=tables)
+
+
+def join(traces):
+    """One trace of several of the same scene and settings, their paths one after the other."""
+    traces = list(traces)
+    begins = np.cumsum([0] + [trace.size for trace in traces])
+    tables = {}
+    for kind in (k.name for k in KINDS):
+        parts = [trace.tables[kind] for trace in traces]
+        names = [name for name in parts[0].columns if all(name in part.columns for part in parts)]
+        tables[kind] = Table(
+            np.concatenate([part.path + begin for part, begin in zip(parts, begins, strict=False)]),
+            np.concatenate([part.step for part in parts]),
+            np.concatenate([part.depth for part in parts]),
+            {name: np.concatenate([part.columns[name] for part in parts], axis=-1) for name in names},
+        )
+    paths = {
+        name: np.concatenate([trace.paths[name] for trace in traces], axis=-1) for name in traces[0].paths
+    }
+    return replace(traces[0], paths=paths, tables=tables)
