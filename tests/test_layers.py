@@ -39,13 +39,13 @@ FLOORS = {
     "tracer.scene_file": 4,
     "tracer.integrator": 4,
     "tracer.engine": 5,
-    "tracer.trace": 5.5,
-    "tracer.doctor": 6,
-    "tracer.testing": 6.2,
-    "tracer": 6.5,
+    "tracer.trace": 6,
+    "tracer.doctor": 7,
+    "tracer.testing": 8,
+    "tracer": 8.5,
     "scenes": 0,
-    "lessons": 7,
-    "viewer": 8,
+    "lessons": 9,
+    "viewer": 10,
 }
 
 # On the ground floor only vectors come before the rest.
