@@ -143,7 +143,7 @@ def test_no_floor_is_kept_for_a_module_that_is_gone():
     ("where", "text", "said"),
     [
         ("tracer/frame.py", "from tracer.scene import Scene", "tracer.frame (floor 0) imports tracer.scene"),
-        ("tracer/film.py", "from tracer import load", "tracer.film (floor 1) imports tracer (floor 6.5)"),
+        ("tracer/film.py", "from tracer import load", "tracer.film (floor 1) imports tracer (floor 8.5)"),
         ("tracer/camera.py", "from tracer.film import fold", "(floor 1) imports tracer.film (floor 1)"),
         ("tracer/scene.py", "def f():\n    import viewer.cli", "imports viewer"),
         ("tracer/shape/mesh.py", "import trimesh", "imports trimesh where it is used"),
