@@ -1,6 +1,7 @@
 """The path options of the command line, made from the one place where settings are declared."""
 
 from dataclasses import fields, make_dataclass
+from json import dumps
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -59,6 +60,11 @@ BenchOptions = path_options(  # without what `castray bench` measures
 )
 Whole = Parameter(converter=_whole)
 Json = Annotated[bool, Parameter(help="print one JSON document and nothing else", negative=())]
+
+
+def print_json(document):
+    """One JSON document on standard output."""
+    print(dumps(document, allow_nan=False, ensure_ascii=True))
 
 
 def settings_and_steps(options):

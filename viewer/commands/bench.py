@@ -2,7 +2,6 @@
 
 import sys
 from dataclasses import dataclass, field, replace
-from json import dumps
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,7 +9,15 @@ from cyclopts import Parameter
 
 import tracer
 from tracer.settings import TracerError
-from viewer.options import SMALL_SIDE, BenchOptions, Json, Whole, settings_and_steps, several_whole
+from viewer.options import (
+    SMALL_SIDE,
+    BenchOptions,
+    Json,
+    Whole,
+    print_json,
+    settings_and_steps,
+    several_whole,
+)
 from viewer.progress import watched
 
 FINER = 16  # the reference has so many times the samples of the finest picture, unless said
@@ -71,7 +78,7 @@ def bench(
     options: BenchOptions | None = None,
     json: Json = False,
 ):
-    """Which estimator for this scene? Run time against error of each, as a table and a picture.
+    """Measure run time against error: which estimator for this scene? A table and a picture.
 
     The error is that of whole pictures against a reference, median over several seeds; efficiency is
     1 / (time x MSE). Estimators that a scene refuses are left out, and it is said why.
@@ -141,7 +148,7 @@ def _show(studies, output, json):
 
         plots.write(plot_bench.figure(studies), output)
     if json:
-        print(dumps(bench_words.as_dict(studies, output), allow_nan=False, ensure_ascii=True))
+        print_json(bench_words.as_dict(studies, output))
     else:
         bench_words.print_studies(studies, output)
     return 0 if complete else 130

@@ -1,7 +1,6 @@
 """The command `castray bsdf`: one material on the bench, as text, as JSON and as a picture."""
 
 import tomllib
-from json import dumps
 from pathlib import Path
 from typing import Annotated
 
@@ -10,14 +9,14 @@ from cyclopts import Parameter
 
 from tracer import material_bench as bench
 from tracer.bsdf.metals import METALS
-from tracer.scene_file.materials import BSDFS, INDICES, bsdf
+from tracer.scene_file import materials
 from tracer.settings import TracerError
-from viewer.options import Json
+from viewer.options import Json, print_json
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
 
-def bench_bsdf(
+def bsdf(
     name: str,
     /,
     *parameters: str,
@@ -47,7 +46,7 @@ def bench_bsdf(
         plots.write(plot_bsdf.figure(document, material), output)
         document["out"] = str(output)
     if json:
-        print(dumps(document, allow_nan=False, ensure_ascii=True))
+        print_json(document)
         return
     print_report(document)
     if output is not None:
@@ -62,12 +61,12 @@ def described(name, words):
     rough = "rough" if words.keys() & {"alpha", "alpha_u", "alpha_v"} else ""
     if name in METALS:
         start = {"type": f"{rough}conductor", "material": name}
-    elif name in INDICES:
+    elif name in materials.INDICES:
         start = {"type": f"{rough}dielectric", "int_ior": name}
-    elif name in BSDFS:
+    elif name in materials.BSDFS:
         start = {"type": name}
     else:
-        known = ", ".join((*BSDFS, *METALS, *INDICES))
+        known = ", ".join((*materials.BSDFS, *METALS, *materials.INDICES))
         raise TracerError(f"bsdf: {name!r} is not a material; known: {known}")
     if name == "twosided" and not words:
         start["bsdf"] = {"type": "diffuse"}
@@ -95,7 +94,7 @@ def split(parameters, options):
 def report(name, words):
     """Everything the bench finds out about a material: (document for JSON, the material)."""
     description = described(name, words)
-    material = bsdf(description, name)
+    material = materials.bsdf(description, name)
     angles = [side for a in ANGLES for side in ((a,) if material.one_sided else (a, 180.0 - a))]
     angles = sorted(angles)
     reflected, transmitted, error = bench.albedo(material, angles)

@@ -1,0 +1,1 @@
+"""The commands of `castray`, one a module, which is imported when its command is run."""

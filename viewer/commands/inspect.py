@@ -1,0 +1,40 @@
+"""The command `castray inspect`."""
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+import tracer
+from viewer.options import Json, PathOptions, Whole, print_json, settings_and_steps, two_whole
+
+
+def inspect(
+    scene: str,
+    /,
+    *,
+    pixel: Annotated[tuple[int, int], Parameter(converter=two_whole, n_tokens=2)],
+    sample: Annotated[int | None, Whole] = None,
+    options: PathOptions | None = None,
+    json: Json = False,
+):
+    """Show the events of a pixel's paths, and how their light adds up to the pixel.
+
+    Parameters
+    ----------
+    scene
+        A scene file, or the bare name of one that comes with castray.
+    pixel
+        Column and row, from 0 0 at the top left.
+    sample
+        Only this sample of the pixel (default: all; the brightest one is then shown event by event).
+    """
+    settings, steps = settings_and_steps(options)
+    loaded = tracer.load(scene)
+    record = tracer.inspect(loaded, settings, *pixel, sample, steps)
+    prepared = loaded.at(record.settings)
+    if json:
+        print_json(record.as_dict(prepared))
+        return
+    from viewer.report import print_pixel
+
+    print_pixel(record, prepared)

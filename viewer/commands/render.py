@@ -1,0 +1,118 @@
+"""The command `castray render`."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+import tracer
+from tracer.picture import check_path
+from tracer.settings import TracerError
+from viewer.options import Json, PathOptions, Whole, print_json, settings_and_steps
+from viewer.progress import watched
+
+MOST_SPP = 4096  # samples of a pixel where only an error is asked for
+
+
+def render(
+    scene: str,
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["-o", "--output"])] = None,
+    options: PathOptions | None = None,
+    engine: str = "auto",
+    workers: Annotated[int | None, Whole] = None,
+    until_error: float | None = None,
+    adaptive: str = "off",
+    explain: Annotated[bool, Parameter(negative=())] = False,
+    json: Json = False,
+):
+    """Render a scene to a picture (.exr and .npy keep the linear numbers, .png is for looking at).
+
+    Parameters
+    ----------
+    scene
+        A scene file, or the bare name of one that comes with castray.
+    output
+        Where the picture goes; SCENE.png in this folder unless said.
+    engine
+        numpy, or auto, which is the same until there are others.
+    workers
+        Most processes to use (default: one for each core). The picture is the same for any number.
+    until_error
+        Stop each tile of 16 x 16 pixels when its relative error (root mean of se^2 / (mean^2 + 0.01)) is that
+        small; --spp is then the most (4096 unless said).
+    adaptive
+        mse or relmse: measure with 16 samples a pixel, then spend the rest of --spp, on average, where that
+        error is.
+    explain
+        Say what the scene needs, what is skipped, and why.
+    """
+    if engine not in ("auto", "numpy"):
+        raise TracerError(f"engine: {engine!r} is not known; choose one of auto, numpy")
+    if workers is not None and not 1 <= workers <= 1024:
+        raise TracerError(f"workers: {workers} is not between 1 and 1024")
+    settings, steps = settings_and_steps(options)
+    if until_error is not None and (options is None or options.spp == PathOptions().spp):
+        settings = replace(settings, spp=MOST_SPP)
+    loaded = tracer.load(scene)
+    path = Path(f"{loaded.name}.png") if output is None else output
+    check_path(path)
+    with watched("rendering") as progress:
+        workers = workers or os.cpu_count() or 1
+        picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
+    tracer.write(picture, path, scene=str(scene))
+    features = []
+    if explain:
+        from tracer.engine.needs import needs
+
+        features = list(needs(loaded, picture.settings))
+    _report(loaded, picture, path, json, features)
+    return 0 if picture.complete else 130
+
+
+def _report(scene, picture, path, as_json, features):
+    """What was rendered, as one JSON document or one line; features: what it needed, if that was asked."""
+    height, width = picture.samples.shape
+    settings = picture.settings
+    if as_json:
+        print_json(
+            {
+                "scene": scene.name,
+                "width": width,
+                "height": height,
+                "spp": settings.spp,
+                "seed": settings.seed,
+                "engine": "numpy",
+                "seconds": picture.seconds,
+                "paths": picture.paths,
+                "rays": picture.rays,
+                "mean": [float(v) for v in picture.rgb.mean(axis=(0, 1), dtype="float64")],
+                "dropped": picture.dropped,
+                "samples": [int(picture.samples.min()), int(picture.samples.max())],
+                "saved": picture.saved,
+                "complete": picture.complete,
+                "settings": settings.as_dict(),
+                "out": str(path),
+            }
+            | ({"explain": [need._asdict() for need in features]} if features else {})
+        )
+        return
+    if features:
+        from viewer.report import print_needs
+
+        print_needs(features)
+    rate = picture.paths / max(picture.seconds, 1e-9)
+    print(
+        f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"
+    )
+    if picture.samples.min() < picture.samples.max():
+        every = sorted(picture.samples.ravel().tolist())
+        spent = f"{every[0]} to {every[-1]}, median {every[len(every) // 2]}"
+        print(f"samples per pixel: {spent}; {picture.saved:.1%} of {settings.spp} saved")
+    if not picture.complete:
+        print(f"stopped early: every pixel has at least {picture.samples.min()} of {settings.spp} samples")
+    if picture.dropped:
+        print(f"{picture.dropped} samples were not finite and count as 0")
