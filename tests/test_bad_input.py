@@ -63,6 +63,7 @@ def scene(folder, name="room.toml", radiance="[1, 1, 1]", thing="cube", more="")
     return name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["render", "inspect", "view"])
 def test_a_scene_that_is_not_there(refused, command):
     words = {"inspect": ("--pixel", "0", "0"), "view": ("--no-browser",), "render": ()}[command]
@@ -212,6 +213,7 @@ def test_a_link_that_names_nothing_of_ours(refused, link):
     refused(("view", link, "--no-browser"), "link", separately=True)
 
 
+@pytest.mark.slow
 def test_the_room_these_tests_spoil_is_good_itself(tmp_path):
     done = castray("render", scene(tmp_path), *SMALL, "-o", "out.npy", "--json", cwd=tmp_path)
     assert done.returncode == 0, done.stderr

@@ -114,6 +114,7 @@ def test_every_stage_is_met_in_a_render():
     assert found == {name for name, _ in STAGES} | {REST}
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no timer of processor time")
 def test_a_profile_is_of_the_work():
     scene = tracer.load("cornell_unit")
@@ -160,6 +161,7 @@ def test_a_ratio_is_that_of_the_logarithms():
     assert np.isnan(geometric([1.0, -1.0]).middle) and np.isnan(geometric([3.0]).low)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_the_interval_of_a_ratio_holds_it_as_often_as_it_says(suite_seed):
     """2000 intervals of 12 pairs: 95 % or half of them hold the ratio, but for 4 standard errors."""
@@ -242,6 +244,7 @@ def fake_race(tmp_path, monkeypatch):
     return run
 
 
+@pytest.mark.slow
 def test_a_race_runs_by_turns_and_tells_ratios(fake_race, capsys):
     text, same, fakes = fake_race()
     assert same and "the same picture but for noise" in text and text.endswith("whole processes")
@@ -251,6 +254,7 @@ def test_a_race_runs_by_turns_and_tells_ratios(fake_race, capsys):
     assert {seed for _, seed in fakes["castray"].asked} >= {1, 2, 3}
 
 
+@pytest.mark.slow
 def test_a_race_goes_on_where_it_was(fake_race, tmp_path):
     first, _, _ = fake_race()
     again, _, fakes = fake_race()

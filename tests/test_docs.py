@@ -52,6 +52,7 @@ def test_an_example_runs_as_it_is_printed(line, tmp_path):
         assert (tmp_path / words[words.index("-o") + 1]).stat().st_size > 0
 
 
+@pytest.mark.slow
 def test_the_scene_of_the_readme_renders(tmp_path):
     (body,) = blocks("README.md", "toml")
     (tmp_path / "mine.toml").write_text(body, encoding="utf-8")
@@ -62,6 +63,7 @@ def test_the_scene_of_the_readme_renders(tmp_path):
     assert min(json.loads(done.stdout)["mean"]) > 0
 
 
+@pytest.mark.slow
 def test_the_python_of_the_readme_runs():
     (body,) = blocks("README.md", "python")
     done = subprocess.run(
@@ -70,6 +72,7 @@ def test_the_python_of_the_readme_runs():
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_the_pixel_of_the_first_five_minutes_is_in_the_shadow_of_the_small_box():
     x, y = re.search(
         r"Take \((\d+), (\d+)\): the floor, in the shadow of the small box", text("README.md")

@@ -80,6 +80,7 @@ def found(wrong, *folders):
     ]
 
 
+@pytest.mark.slow
 def test_text_states_its_encoding():
     broken = found(leaves_encoding_to_chance, *OURS, "tests")
     assert not broken, "\n" + "\n".join(broken)
@@ -115,6 +116,7 @@ def test_a_stated_encoding_is_let_through(code):
     assert not complaints(ast.parse(code), leaves_encoding_to_chance)
 
 
+@pytest.mark.slow
 def test_nothing_is_used_that_only_some_systems_have():
     broken = found(is_not_everywhere, *OURS) + found(forks, *OURS)
     assert not broken, "\n" + "\n".join(broken)

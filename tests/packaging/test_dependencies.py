@@ -52,6 +52,7 @@ def imported(folder):
                 yield from (a.value for a in node.args if isinstance(a, ast.Constant))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("folder", sorted(OURS))
 def test_what_is_imported_is_declared(folder):
     strangers = set(imported(folder)) - OURS - set(sys.stdlib_module_names)
@@ -61,6 +62,7 @@ def test_what_is_imported_is_declared(folder):
         assert known & declared(), f"{folder} imports {module}, which pyproject.toml does not name"
 
 
+@pytest.mark.slow
 def test_what_is_declared_is_imported():
     owners = metadata.packages_distributions()
     used = {name for folder in OURS for module in imported(folder) for name in owners.get(module, [module])}
@@ -86,6 +88,7 @@ def test_nothing_is_pinned_that_is_not_needed():
     assert pins().keys() - needed(declared("dev")) <= elsewhere | newer | peers
 
 
+@pytest.mark.slow
 def test_the_peer_is_installed_as_pinned_if_it_is():
     pytest.importorskip("mitsuba")
     assert {name: metadata.version(name) for name in needed(declared("peers"))}.items() <= pins().items()

@@ -19,6 +19,8 @@ from suite import ROOT
 # since walls of one box are met as that box (c4309c6). What is added for a feature must not be paid here.
 CALLS, BYTES = 10_300, 340_000_000
 
+pytestmark = pytest.mark.slow
+
 
 def count(*words):
     command = [sys.executable, str(ROOT / "tests" / "counting.py"), *map(str, words)]

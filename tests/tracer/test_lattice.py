@@ -112,6 +112,7 @@ def disorder(first, second):
     return total
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("use", PAIRS)
 def test_the_square_of_each_use_is_filled_evenly(use):
     """By components that are among the best quarter there are; the diagonal, the broken twin, is not."""

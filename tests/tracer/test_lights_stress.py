@@ -136,6 +136,7 @@ def test_s22_a_lamp_that_fills_the_hemisphere(suite_seed, precision):
     assert lamps.close(lamps.irradiance(light), np.pi, slack={32: 1e-3, 64: 1e-4}[precision])
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @both
 def test_s23_a_receiver_on_a_sphere_and_one_inside(suite_seed, precision):

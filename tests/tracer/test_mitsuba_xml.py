@@ -337,6 +337,7 @@ EVERY_SPELLING = {
 }
 
 
+@pytest.mark.slow
 def test_every_spelling_of_a_dict_goes_out_and_comes_back_the_same(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
@@ -420,6 +421,7 @@ def test_the_command_refuses_in_one_line(tmp_path, words, said):
     assert said in done.stderr and not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_the_command_says_what_is_a_setting(tmp_path):
     old, new, said = NOTED[0]
     (tmp_path / "room.xml").write_text(XML.replace(old, new), encoding="utf-8")

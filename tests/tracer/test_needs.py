@@ -138,6 +138,7 @@ def test_what_is_left_out_of_shadow_tests_never_blocks(scene, precision):
     assert differ <= 1e-3 * asked
 
 
+@pytest.mark.slow
 def test_explain_says_what_is_on_and_off_and_why(tmp_path):
     words = ("render", "cornell_unit", "--size", 8, 8, "--spp", 1, "-o", tmp_path / "box.png", "--explain")
     done = castray(*words)

@@ -27,6 +27,7 @@ def test_an_adaptive_picture_spends_what_was_asked(goal):
     assert (picture.samples % film.BLOCK == 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [{"adaptive": "mse"}, {"adaptive": "relmse"}, {"until_error": 0.1}])
 def test_a_pixel_with_its_own_number_of_samples_is_inspected_bit_for_bit(words):
     picture = render(spp=128, **words)
@@ -36,6 +37,7 @@ def test_a_pixel_with_its_own_number_of_samples_is_inspected_bit_for_bit(words):
         assert record.value.tobytes() == picture.rgb[y, x].tobytes(), n
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [{"adaptive": "mse"}, {"until_error": 0.1}])
 def test_neither_waves_nor_processes_change_it(monkeypatch, words):
     usual = render(spp=64, **words)
@@ -46,6 +48,7 @@ def test_neither_waves_nor_processes_change_it(monkeypatch, words):
     assert other.samples.tobytes() == usual.samples.tobytes()
 
 
+@pytest.mark.slow
 def test_where_nothing_varies_one_block_is_enough():
     """The furnace without noise, and all of a lamp but its edge."""
     picture = render("furnace", spp=1024, until_error=1e-3, **FLAT_FURNACE)
@@ -95,6 +98,7 @@ def selfish(settings, sheet, error):
         going = np.flatnonzero(plan.relative_spread(sheet, variance) > error * error)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @pytest.mark.parametrize("which", ["until_error", "mse", "relmse", "selfish"])
 def test_no_plan_darkens_rare_light(suite_seed, which):

@@ -109,6 +109,7 @@ def test_it_is_unbiased(suite_seed):
         assert not z_test(furnace(suite_seed, 16, 2), TRUTH).same
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_95_of_100_error_bars_hold_the_truth(suite_seed):
     """Red only: the room is grey. Bars from the spread of samples, the broken twin, promise too little."""
@@ -132,6 +133,7 @@ def test_the_same_light_as_with_independent_samples(suite_seed):
     assert other.variance.mean() < 0.5 * one.variance.mean()
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @pytest.mark.parametrize("replicates", [2, 4, 16])
 def test_false_alarms_of_few_replicates(suite_seed, replicates):

@@ -95,6 +95,7 @@ def test_s46_normals_that_are_none_fall_back_to_the_geometric_one(tmp_path, brok
     assert picture.dropped == 0 and (picture.rgb == flat.rgb).all()
 
 
+@pytest.mark.slow
 def test_normals_move_by_the_inverse_transpose_n03(tmp_path):
     ball(tmp_path, subdivisions=4)
     squeezed = scene(tmp_path, to_world=[{"scale": [1.0, 0.4, 1.0]}])

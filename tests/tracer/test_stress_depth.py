@@ -63,12 +63,14 @@ def most_memory(depth):
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 def test_s51_the_length_of_paths_takes_no_memory():
     most_memory(2)
     short, long = most_memory(4), most_memory(100)
     assert long < 1.1 * short  # Python keeps some freed tuples for later
 
 
+@pytest.mark.slow
 @both
 def test_s52_a_room_that_loses_nothing_brightens_by_one_with_every_bounce(precision):
     """Whole numbers, exactly."""

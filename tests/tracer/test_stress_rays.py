@@ -23,6 +23,7 @@ both = pytest.mark.parametrize("dtype", DTYPES)
 quiet = pytest.mark.filterwarnings("ignore:divide by zero", "ignore:invalid value", "ignore:overflow")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("aim", AIMS)
 def test_s03_nothing_escapes_a_small_ball_where_embree_tests_itself(suite_seed, aim):
     """20480 triangles on a sphere of 2 m, 270 km from the origin."""

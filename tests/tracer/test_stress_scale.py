@@ -75,6 +75,7 @@ def test_s01_a_fixed_distance_from_the_surface_is_caught(suite_seed):
     assert worst_z(one, right) < z_limit(one.rgb.size) < worst_z(tiny, one)
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_s02_double_precision_shows_a_scene_ten_thousand_kilometres_away(suite_seed):
     far = placed("cornell_unit", {"translate": FAR})
@@ -119,6 +120,7 @@ def refused(far, settings):
         assert "\n" not in str(error.value)
 
 
+@pytest.mark.slow
 def test_s02_single_precision_refuses_it_in_one_line(tmp_path):
     far = placed("cornell_unit", {"translate": FAR})
     refused(far, SMALL)

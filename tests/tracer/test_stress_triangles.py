@@ -34,6 +34,7 @@ def with_slivers(ratio):
     return np.concatenate((vertices, rim)), faces
 
 
+@pytest.mark.slow
 @quiet
 @both
 @pytest.mark.parametrize("ratio", [1e-7, 1e-12])
@@ -59,6 +60,7 @@ def test_s13_slivers_and_fans_leave_no_crack(suite_seed, ratio, dtype):
         assert np.abs(np.linalg.norm(hit.ng, axis=0) - 1.0).max() < 1e-6 and np.isfinite(hit.p).all()
 
 
+@pytest.mark.slow
 @both
 def test_s13_no_ray_that_goes_on_from_a_sliver_escapes(suite_seed, dtype):
     vertices, faces = with_slivers(1e-7)

@@ -19,6 +19,7 @@ def event_of(found, kind, row):
     return {f.name: found.column(kind.name, f.name)[..., row] for f in kind.fields}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", [32, 64])
 def test_a_trace_holds_of_every_event_what_inspect_shows(scene, precision):
     settings = tracer.Settings(precision=precision, **SMALL)

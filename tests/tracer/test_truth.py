@@ -23,7 +23,12 @@ def some(*starts, but=()):
     return of([(k, b) for k, b in ESTIMATES if k.startswith(starts or "") and not k.startswith(but or "-")])
 
 
-@of(evaluated("kernel"))
+def slow_where_integrals_are_many(pairs):
+    long = (".avg", ".max_abs_z.")
+    return [pytest.param(*p, marks=pytest.mark.slow) if any(w in p[0] for w in long) else p for p in pairs]
+
+
+@of(slow_where_integrals_are_many(evaluated("kernel")))
 def test_a_kernel_has_the_value(key, bits):
     found, most = kernel_error(key, bits), truth.bar(key, bits)
     assert found <= most, (number(key, bits), entry(key)[1])
@@ -83,7 +88,7 @@ def test_the_tests_here_are_of_all_of_them():
     for name, test in globals().items():
         for mark in getattr(test, "pytestmark", ()) if name.startswith("test_") else ():
             if mark.name == "parametrize" and mark.args[0] == ("key", "bits"):
-                tested |= set(mark.args[1])
+                tested |= {getattr(pair, "values", pair) for pair in mark.args[1]}
     everything = set(evaluated("kernel", "bound", "refuted", "estimator"))
     assert everything - tested == {(k, 64) for k, e in EVALUATORS.items() if e.dear and 64 in e.bits}
 

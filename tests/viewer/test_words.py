@@ -44,6 +44,7 @@ def test_a_dead_path_says_why_in_one_sentence_and_a_live_one_does_not(pixels):
         assert sentence.count(". ") == 0
 
 
+@pytest.mark.slow
 def test_the_formula_gives_what_was_recorded(pixels):
     """Substituting the event's own numbers reproduces its result, whatever the event."""
     for _, settings, path in paths(pixels):
