@@ -34,15 +34,26 @@ SAMPLERS = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler
 
 
 def entries(programs):
-    """Every Entry of castray and of the Mitsuba variants among the programs."""
-    ours = Settings.__dataclass_fields__["sampler"].metadata["choices"]
-    found = [Entry("castray", sampler, adaptive) for sampler in ours for adaptive in GOALS]
+    """Every Entry of castray and of the Mitsuba variants among the programs.
+
+    castray samples the lamp by area, which is enough there and costs less, and with its best sampler by solid
+    angle, too, as it does unless told.
+    """
+    found = [Entry("castray", sampler, adaptive) for sampler in _choices("sampler") for adaptive in GOALS]
+    found += [Entry("castray", "lattice", adaptive, "solid_angle") for adaptive in GOALS[:2]]
     return found + [Entry(program, sampler) for program in programs[1:] for sampler in SAMPLERS]
+
+
+def _choices(setting):
+    return Settings.__dataclass_fields__[setting].metadata["choices"]
 
 
 def how(entry):
     """The options of an Entry as its contestant takes them."""
-    return {"sampler": entry.sampler} | ({"adaptive": entry.adaptive} if entry.is_adaptive else {})
+    if entry.program != "castray":
+        return {"sampler": entry.sampler}
+    more = {"adaptive": entry.adaptive} if entry.is_adaptive else {}
+    return {"sampler": entry.sampler, "light_sampling": entry.lamps} | more
 
 
 def started(asked, xml, folder):

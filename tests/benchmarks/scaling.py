@@ -27,7 +27,7 @@ def wave_size(lanes):
 
 
 def lanes(size, say):
-    """Paths per second with waves of 512 to 131072 paths, and the memory they take."""
+    """Paths per second with waves of 512 to 262144 paths, and the memory they take."""
     scene, asked = scenes.box(), settings(size)
 
     def render(lanes):

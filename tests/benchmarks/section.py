@@ -20,7 +20,7 @@ class Size:
     spp: int = 16
     repeats: int = 5  # of each render; the median counts
     moments: int = 1500  # samples of a profile
-    lanes: tuple = tuple(1 << k for k in range(9, 18))
+    lanes: tuple = tuple(1 << k for k in range(9, 19))
     spps: tuple = (1, 4, 16, 64, 256)
     depths: tuple = (1, 2, 4, 8, 16, 32, -1)
     levels: tuple = (3, 4, 5, 6, 7, 8)  # subdivisions of an icosahedron: 20 * 4^level triangles

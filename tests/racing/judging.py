@@ -25,10 +25,18 @@ class Entry(NamedTuple):
     program: str  # castray, scalar_rgb or llvm_ad_rgb
     sampler: str
     adaptive: str = "off"  # castray's
+    lamps: str = "area"  # castray's light_sampling
+
+    @property
+    def way(self):
+        """How the program renders, in words."""
+        more = [f"adaptive {self.adaptive}"] * self.is_adaptive
+        more += ["solid angle"] * (self.lamps == "solid_angle")
+        return ", ".join((self.sampler, *more))
 
     @property
     def name(self):
-        return ", ".join((self.program, self.sampler, *([f"adaptive {self.adaptive}"] * self.is_adaptive)))
+        return f"{self.program}, {self.way}"
 
     @property
     def is_adaptive(self):
@@ -145,7 +153,7 @@ class Race:
         return {
             "figure": MEASURES.get(measure, "paths/s"),
             "spp": spp,
-            "castray": ", ".join(one[1:]) if one and one.is_adaptive else one.sampler if one else "",
+            "castray": one.way if one else "",
             "against": f"{program}, {other.sampler}" if other else program,
             "ratio": said,
             "asked": asked,

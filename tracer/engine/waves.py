@@ -14,8 +14,8 @@ from tracer.engine.memory import keep_freed
 from tracer.integrator import ALL as INTEGRATORS
 from tracer.integrator.wave import Wave
 
-# Paths in a wave: enough to hide Python's cost per call, few enough to keep most arrays in the cache.
-LANES = 1 << 16
+# Paths in a wave: enough to hide what a call costs in Python. What leaves the cache for it weighs less.
+LANES = 1 << 17
 
 
 class Task(NamedTuple):
