@@ -58,7 +58,9 @@ def furnace(key, given, to):
 @estimator("furnace.diffuse.rho=0.1.inf", "furnace.diffuse.rho=0.5.inf", n=50_000)
 @estimator("furnace.diffuse.rho=0.8.inf", "furnace.diffuse.rho=0.9.inf", n=130_000, dear=True)
 def endless_furnace(key, given, bits, seed, n):
-    return radiance(closed(given["Le"], given["rho"]), bits, seed, n)
+    """In a dark room automatic roulette lets so few paths go on that n may have none, and so no spread."""
+    roulette = "auto" if given["rho"] >= 0.5 else "0.5"
+    return radiance(closed(given["Le"], given["rho"]), bits, seed, n, roulette=roulette)
 
 
 @estimator("furnace.rgb.B", n=130_000, dear=True)
