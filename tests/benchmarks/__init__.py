@@ -39,6 +39,21 @@ BENCH = (
         sampling.measure,
     ),
     Section(
+        "slopes",
+        "How fast the error falls",
+        "Root mean square error of the unit box, 128 x 128, depth 8, as the scatter between seeds, which\n"
+        "needs no reference, and the slope of a line through its logarithms.",
+        sampling.slopes,
+    ),
+    Section(
+        "rectangles",
+        "Rectangular lamps",
+        "Variance of one sample of a floor point under a square lamp, by the ways to find it (`mis` spends\n"
+        "two samples), beside the exact values (by quadrature to 1e-11), with one standard error. Asked:\n"
+        "within 5 %. By area it knows no bounds where lamp and floor touch, so `solid_angle` is the default.",
+        sampling.rectangles,
+    ),
+    Section(
         "triangles",
         "Triangles",
         "The unit box with a sphere of triangles in place of the tall box, 128 x 128, 4 spp, depth 8, one\n"

@@ -1,9 +1,14 @@
-"""castray's samplers beside others."""
+"""castray's samplers beside others, how fast their errors fall, and what a sample of a lamp is worth."""
 
+import lamps
+import numpy as np
 import samplers
 
 import tracer
-from benchmarks.section import table
+from benchmarks import scenes
+from benchmarks.section import SEED, settings, short, table
+
+RARE = {("touching", "bsdf", "area")}  # a bounce in 2000 misses the lamp: eight times the samples
 
 
 def measure(size, say):
@@ -13,3 +18,42 @@ def measure(size, say):
     return table(
         [row for scene in scenes for row in samplers.rows(scene, names, side, size.spps[-3:], seeds, say)]
     )
+
+
+def slopes(size, say):
+    """The root mean square error of whole pictures against samples, and the slope of a line through it."""
+    rows = []
+    for sampler, asked in (("independent", "-0.5"), ("lattice", "below -0.6")):
+        errors = {}
+        for spp in size.error_spps:
+            say(f"{sampler}: {spp} spp")
+            pictures = [
+                tracer.render(scenes.box(), settings(size, spp=spp, sampler=sampler, seed=SEED + k)).rgb
+                for k in range(size.error_seeds)
+            ]
+            errors[spp] = np.sqrt(np.var(pictures, axis=0, ddof=1, dtype=np.float64).mean())
+        slope = np.polyfit(np.log(list(errors)), np.log(list(errors.values())), 1)[0]
+        found = {f"{spp} spp": short(error) for spp, error in errors.items()}
+        rows.append({"sampler": sampler, **found, "slope": f"{slope:+.3f}", "asked": asked})
+    return table(rows)
+
+
+def rectangles(size, say):
+    """Variance of a sample, by way to find the lamp, over what it is known to be."""
+    rows = []
+    for (name, strategy, by), known in lamps.VARIANCES.items():
+        say(f"{name}: {strategy}, {by}")
+        spp = size.lamp_spp * (8 if (name, strategy, by) in RARE else 1)
+        samples = lamps.radiance_samples(SEED, lamps.room(name), strategy, by, spp)
+        variance, error = lamps.variance_and_error(samples)
+        rows.append(
+            {
+                "lamp": name,
+                "strategy": strategy,
+                "light sampling": by if strategy != "bsdf" else "-",
+                "variance": f"{variance:.4g}",
+                "known": f"{known:.4g}",
+                "off by": f"{variance / known - 1:+.2%} ± {error:.2%}",
+            }
+        )
+    return table(rows)

@@ -6,7 +6,7 @@ Float32 is allowed 1e-5 on top. The other exact values are in test_truth.
 
 import lamps
 import pytest
-from lamps import radiance_samples, variance_and_error
+from lamps import MEANS, VARIANCES, radiance_samples, variance_and_error
 from truth import entry, keys
 from values.lights import from_rectangle
 
@@ -22,31 +22,6 @@ def test_a_rectangle_sampled_by_area_sends_what_lambert_says(suite_seed, key, pr
     given, value = entry(key)
     found = from_rectangle(key, given, precision, suite_seed, 1_600_000, by="area")
     assert lamps.close(found, value, slack=SLACK[precision])
-
-
-# Variance per sample (accuracy.md 2.6), by strategy, light sampling and heuristic; `mis` spends two samples.
-VARIANCES = {
-    ("small", "light", "area"): 1.34122e-05,
-    ("small", "light", "solid_angle"): 8.373657719e-07,
-    ("small", "bsdf", "area"): 0.0680787,
-    ("small", "mis", "area"): 1.500289538e-05,
-    ("small", "mis", "solid_angle"): 2.777072650e-06,
-    ("offset", "light", "area"): 4.06475e-05,
-    ("offset", "light", "solid_angle"): 2.352293274e-06,
-    ("offset", "bsdf", "area"): 0.0137298475,
-    ("offset", "mis", "area"): 4.05805e-05,
-    ("offset", "mis", "solid_angle"): 2.35017e-06,
-    ("near", "light", "area"): 5.88455,
-    ("near", "light", "solid_angle"): 0.124254,
-    ("near", "bsdf", "area"): 0.0462163,
-    ("near", "mis", "area"): 0.146387,
-    ("near", "mis", "solid_angle"): 0.0390851,
-    ("touching", "light", "solid_angle"): 0.3043374198,
-    ("touching", "bsdf", "area"): 0.000510912,
-    ("touching", "mis", "area"): 0.0234224,
-    ("touching", "mis", "solid_angle"): 0.0501374,
-}
-MEANS = {"small": 0.0734776, "offset": 0.0139237, "near": 0.951424, "touching": 0.999489}
 
 
 @pytest.mark.slow
