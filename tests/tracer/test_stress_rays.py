@@ -92,14 +92,13 @@ def test_s08_a_room_with_a_hole_is_lit(suite_seed, monkeypatch):
     """The broken twin: one of its twelve walls is not asked."""
     scene = white_room(PLACES[0], "box").at(Settings())
     (mesh,) = scene.arrangement.closest
-    monkeypatch.setattr(
-        mesh, "_inside", lambda triangles, *a, ask=mesh._inside: holed(triangles, *ask(triangles, *a))
-    )
+    monkeypatch.setattr(mesh, "_through", lambda *a, ask=mesh._through: holed(*ask(*a)))
     assert segments(PLACES[0], 32, suite_seed, side=8)["lit"] > 0.0
 
 
-def holed(triangles, sums, inside):
-    return sums, inside & (triangles != 5)[:, None]
+def holed(triangles, lane, sums):
+    there = triangles != 5
+    return triangles[there], lane[there], sums[there]
 
 
 @quiet

@@ -5,13 +5,12 @@ import numpy as np
 from tracer.frame import cross, dot, length
 from tracer.shape import bvh, start
 
-# Lanes times triangles in flight: small enough to stay in cache.
-_CHUNK = 1 << 15
+_TESTS = 1 << 14  # pairs of a ray and a triangle in flight: few enough to stay in the cache
 _GRAZING = 1e-3  # cosine below which the distance to a plane may lie outside the triangle
 
 
 class MeshKernel:
-    """Watertight test of triangles (Woop, Benthin and Wald 2013), a leaf of the tree at a time.
+    """Watertight test of triangles (Woop, Benthin and Wald 2013), on pairs of a ray and a leaf of the tree.
 
     The ray is sheared onto the axis it points along most; the three edge functions of two triangles that
     share an edge are then the same numbers with opposite signs, so no ray passes between them. In float32
@@ -27,31 +26,33 @@ class MeshKernel:
 
     def __init__(self, mesh, first, dtype, others):
         self.first, self.faces, self.others = first, mesh.primitives, others
-        self.vertices, self.corner_of = mesh.vertices.astype(dtype), mesh.faces
-        corners = self.vertices[mesh.faces]
-        self.corners = corners.astype(np.float64).transpose(1, 2, 0)  # (3 corners, 3, F)
+        corners = mesh.vertices.astype(dtype)[mesh.faces]
+        # (3 corners, 3, F), in this order in memory: `take` would copy all of any other.
+        self.corners = np.ascontiguousarray(corners.transpose(1, 2, 0), np.float64)
         self.turn = -1.0 if mesh.flip_normals else 1.0
-        self.n = _normals(self.corners, mesh.planes()[0])
+        n, c = mesh.planes()
+        self.n = np.ascontiguousarray(_normals(self.corners, n))
         self.rough_n, self.rough_corner = self.n.astype(dtype), self.corners[0].astype(dtype)
         # Wide enough for a ray that starts on a face and, by rounding, behind it.
         self.margin = np.zeros(self.faces) if others is None else others.margin(first, self.faces)
         self.margin = self.margin.astype(dtype)
         pad = self.margin[:, None]
         low, high = corners.min(axis=1) - pad, corners.max(axis=1) + pad
-        self.tree, self.low, self.high = bvh.build(low, high), low.T.copy(), high.T.copy()
-        self.plane = _same_plane(*mesh.planes())
+        self.low, self.high = low.T.copy(), high.T.copy()
+        self.tree = bvh.build(low, high)
+        # Corners of a leaf's triangles side by side; an empty place has those of another triangle.
+        self.block = corners[self.tree.leaves].transpose(0, 2, 3, 1).reshape(len(self.tree.leaves), -1)
+        self.plane = _same_plane(n, c)
 
     def closest(self, rays, within=np.inf):
         """Distance to the nearest triangle before `within` (N,), inf where there is none, and which."""
         n, dtype = rays.source.size, rays.o.dtype
         limit, crossed = np.full(n, within, dtype), []
         over_d = bvh.inverse(rays.d)
-        near = np.flatnonzero(bvh.meets(self.tree, rays.o, over_d, limit))
-        major = np.argmax(np.abs(rays.d.take(near, axis=1)), axis=0)
-        for axis in range(3):
-            lanes = near[major == axis]
-            if lanes.size:
-                self._along(axis, rays, lanes, over_d, limit, crossed)
+        near, starting = bvh.enter(self.tree, rays.o, over_d, limit)
+        for begin in range(0, near.size, bvh.GROUP):
+            some = slice(begin, begin + bvh.GROUP)
+            self._cross(rays, near[some], over_d, limit, starting[some], crossed)
         t, face = np.full(n, np.inf, dtype), np.full(n, -1, np.int32)
         if crossed:
             self._first(t, face, rays, *(np.concatenate(column) for column in zip(*crossed, strict=True)))
@@ -59,37 +60,48 @@ class MeshKernel:
             t[beyond], face[beyond] = np.inf, -1
         return t, self.first + face
 
-    def _along(self, axis, rays, lanes, over_d, limit, crossed):
-        """Walk the tree with the rays whose largest component is `axis`; put triples of triangle, ray and
-        heading into `crossed`."""
-        kx, ky = (axis + 1) % 3, (axis + 2) % 3
-        o, d, within = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1), limit[lanes]
-        sheared = np.stack((o[kx], o[ky], o[axis], d[kx] / d[axis], d[ky] / d[axis]))
-        source = rays.source[lanes]
-        target = None if rays.target is None else rays.target[lanes]
-        plane = None if rays.touched is None else self._planes(rays, lanes)
+    def _cross(self, rays, lanes, over_d, limit, starting, crossed):
+        """Put triples of triangle, lane and heading into `crossed`, those of the nearest hits of the rays
+        `lanes` among them. starting: which of these start in the box around everything."""
+        o, d, over_d = (v.take(lanes, axis=1) for v in (rays.o, rays.d, over_d))
+        within = limit.take(lanes)
+        sheared, axis = _sheared(o, d)
+        if self.tree.steps:
+            leaf, lane = bvh.first_leaves(self.tree, o, over_d, within)
+            met, lane, _ = self._through(rays, lanes, sheared, axis, leaf, lane)
+            self._shorten(within, met, lane, o.take(lane, axis=1), d.take(lane, axis=1))
+        leaf, lane, starting = bvh.all_leaves(self.tree, o, over_d, within, starting)
+        if rays.touched is not None and starting.any():
+            begun = np.flatnonzero(starting)
+            self._touching(self.tree.leaves[leaf[begun]], rays, lanes[lane[begun]])
+        met, lane, sums = self._through(rays, lanes, sheared, axis, leaf, lane)
+        if met.size:
+            along = d.ravel().take(axis.take(lane) * lanes.size + lane)
+            crossed.append((met, lanes.take(lane), -self.turn * sums * along))
 
-        def visit(triangles, some, starting):
-            if plane is not None:
-                begun = some[starting & (plane[some] > -2)]
-                if begun.size:
-                    self._touching(triangles, rays, lanes[begun], plane[begun])
-            step = max(1, _CHUNK // triangles.size)
-            for begin in range(0, some.size, step):
-                part = some[begin : begin + step]
-                sums, inside = self._inside(triangles, (kx, ky, axis), sheared.take(part, axis=1))
-                number = self.first + triangles[:, None]
-                inside &= source[part] != number
-                if target is not None:
-                    inside &= target[part] != number
+    def _through(self, rays, lanes, sheared, axis, leaf, lane):
+        """Triangles (M,) of leaves (P,) that rays pass through, which of `lanes` (M,), and the sums (M,) of
+        the edge functions. lane: (P,) the leaves' rays, counted in `lanes`, as are the columns of sheared
+        (5, L) and axis (L,). A ray's own triangle and the one it is aimed at are left out."""
+        found, of_pair = [], axis.take(lane)
+        step = max(1, _TESTS // self.tree.leaves.shape[1])
+        for k in range(3):
+            pairs = np.flatnonzero(of_pair == k)
+            for begin in range(0, pairs.size, step):
+                some = pairs[begin : begin + step]
+                ray, leaves = lane.take(some), leaf.take(some)
+                sums, inside = self._inside(leaves, ((k + 1) % 3, (k + 2) % 3, k), sheared.take(ray, axis=1))
                 row, column = np.nonzero(inside)
                 if row.size:
-                    met, lane = triangles[row], part[column]
-                    crossed.append((met, lanes[lane], -self.turn * sums[row, column] * d[axis, lane]))
-                    if self.tree.triangles is None:  # there are other leaves
-                        self._shorten(within, met, lane, o.take(lane, axis=1), d.take(lane, axis=1))
-
-        bvh.walk(self.tree, o, over_d.take(lanes, axis=1), within, visit)
+                    found.append((self.tree.leaves[leaves[column], row], ray[column], sums[row, column]))
+        if not found:
+            return np.empty(0, np.intp), np.empty(0, np.intp), np.empty(0, sheared.dtype)
+        met, lane, sums = (np.concatenate(column) for column in zip(*found, strict=True))
+        number, there = self.first + met, met >= 0
+        there &= rays.source[lanes[lane]] != number
+        if rays.target is not None:
+            there &= rays.target[lanes[lane]] != number
+        return met[there], lane[there], sums[there]
 
     def _shorten(self, within, met, lane, o, d):
         """Lower the limits of rays to a little beyond the triangles that they surely meet."""
@@ -129,24 +141,25 @@ class MeshKernel:
         plane[own] = self.plane[source[own] - self.first]
         return plane
 
-    def _touching(self, triangles, rays, lanes, plane):
-        """Say which rays, starting in a leaf's box and in these planes, may touch which of its triangles."""
-        o = rays.o.take(lanes, axis=1)
-        low, high = (
-            self.low.take(triangles, axis=1)[:, :, None],
-            self.high.take(triangles, axis=1)[:, :, None],
-        )
-        inside = ((low <= o[:, None]) & (o[:, None] <= high)).all(axis=0)
-        row, column = np.nonzero(inside & (plane != self.plane[triangles, None]))
+    def _touching(self, triangles, rays, lanes):
+        """Say which rays, starting in leaves' boxes, may touch which of their triangles (L, K)."""
+        plane = self._planes(rays, lanes)
+        o = rays.o.take(lanes, axis=1)[:, :, None]
+        inside = (triangles >= 0) & (plane[:, None] > -2) & (plane[:, None] != self.plane[triangles])
+        for low, high, x in zip(self.low, self.high, o, strict=True):
+            inside &= (low[triangles] <= x) & (x <= high[triangles])
+        row, column = np.nonzero(inside)
         if row.size:
-            met = triangles[row]
-            height = dot(self.n.take(met, axis=1), o[:, column] - self.corners[0].take(met, axis=1))
+            met = triangles[row, column]
+            height = dot(self.n.take(met, axis=1), o[:, row, 0] - self.corners[0].take(met, axis=1))
             on = np.abs(height) <= self.margin[met]
-            rays.touched.append((lanes[column[on]], self.first + met[on]))
+            rays.touched.append((lanes[row[on]], self.first + met[on]))
 
-    def _inside(self, triangles, axes, sheared):
-        """Sums of the edge functions (T, N) of sheared rays and triangles, and whether they pass through."""
-        x, y = _shear(self.vertices, self.corner_of[triangles], axes, sheared)
+    def _inside(self, leaf, axes, sheared):
+        """Sums of the edge functions (K, P) of the triangles of leaves (P,) and sheared rays (5, P), and
+        whether they pass through."""
+        corners = bvh.columns(self.block, leaf).reshape(3, 3, self.tree.leaves.shape[1], -1)
+        x, y = _shear(corners, axes, sheared)
         u, v, w = _edges(x, y)
         if u.dtype == np.float32:
             again = (u == 0.0) | (v == 0.0) | (w == 0.0)
@@ -185,7 +198,11 @@ class MeshKernel:
 def _same_plane(n, c):
     """A number (F,) for each plane n . x = c, the same for those that differ by rounding only."""
     digits = np.vstack((n, c / np.maximum(np.abs(c).max(), np.finfo(c.dtype).tiny))).round(12)
-    return np.unique(digits + 0.0, axis=1, return_inverse=True)[1].reshape(-1)  # -0 + 0 is +0
+    order = np.lexsort(digits)
+    other = np.diff(digits.take(order, axis=1), axis=1) != 0.0
+    number = np.zeros(c.size, np.intp)
+    number[order[1:]] = np.cumsum(other.any(axis=0))
+    return number
 
 
 def planes_through(a, b, c):
@@ -213,15 +230,25 @@ def _normals(corners, ideal):
     return np.where(n.any(axis=0), np.where(side < 0.0, -n, n), ideal)
 
 
-def _shear(vertices, corners, axes, sheared):
-    """Corners of triangles (T, 3) across the sheared rays: x and y, each three (T, N)."""
-    o, shear_x, shear_y = sheared[:3], sheared[3], sheared[4]
-    x, y = [], []
+def _sheared(o, d):
+    """What shears rays onto the axis they point along most, (5, N), and that axis, (N,)."""
+    axis = np.argmax(np.abs(d), axis=0)
+    sheared = np.empty((5, axis.size), o.dtype)
     for k in range(3):
-        v = vertices[corners[:, k]]
-        away = v[:, axes[2], None] - o[2]
-        x.append((v[:, axes[0], None] - o[0]) - shear_x * away)
-        y.append((v[:, axes[1], None] - o[1]) - shear_y * away)
+        lanes = np.flatnonzero(axis == k)
+        (ox, oy, oz), (dx, dy, dz) = ([v[(k + j) % 3].take(lanes) for j in (1, 2, 3)] for v in (o, d))
+        sheared[:, lanes] = ox, oy, oz, dx / dz, dy / dz
+    return sheared, axis
+
+
+def _shear(corners, axes, sheared):
+    """Corners of triangles (3 corners, 3, K, P) across the sheared rays: x and y, each three (K, P)."""
+    ox, oy, oz, shear_x, shear_y = sheared
+    x, y = [], []
+    for corner in corners:
+        away = corner[axes[2]] - oz
+        x.append((corner[axes[0]] - ox) - shear_x * away)
+        y.append((corner[axes[1]] - oy) - shear_y * away)
     return x, y
 
 
