@@ -7,14 +7,49 @@ Ids are stable: links, recordings and lessons name them.
 
 from dataclasses import replace
 
-from lessons.zoo import bounce, emission, film, glass, light, roulette
+from lessons.zoo import (
+    abandoned,
+    bounce,
+    directions,
+    emission,
+    film,
+    geometry,
+    glass,
+    light,
+    material,
+    normals,
+    numbers,
+    roulette,
+)
 from lessons.zoo.bug import Bug
 from tracer.integrator.steps import RIGHT
 from tracer.settings import TracerError
 
-ZOO = {bug.id: bug for family in (emission, light, bounce, roulette, film, glass) for bug in family.BUGS}
+FAMILIES = {
+    "Lamps that are met": emission.BUGS,
+    "Light samples": light.BUGS,
+    "Bounces": bounce.BUGS,
+    "wi and wo": directions.BUGS,
+    "Normals and frames": normals.BUGS,
+    "Materials": material.BUGS,
+    "Glass and mirrors": glass.BUGS,
+    "Rays and hits": geometry.BUGS,
+    "Roulette": roulette.BUGS,
+    "Random numbers and cost": numbers.BUGS,
+    "From samples to the picture": film.BUGS,
+    "All at once": abandoned.BUGS,
+}
+ZOO = {bug.id: bug for bugs in FAMILIES.values() for bug in bugs}
 
-__all__ = ["RIGHT", "ZOO", "Bug", "changed", "planted", "steps"]
+# Mistakes that no recording tells apart: they give the same numbers, or none at all.
+ALIKE = (frozenset(("E01", "E04")), frozenset(("D01", "D02")), frozenset(("P01", "P07")))
+
+__all__ = ["ALIKE", "FAMILIES", "RIGHT", "ZOO", "Bug", "alike", "changed", "planted", "steps"]
+
+
+def alike(bug_id):
+    """The ids of the bugs that no recording tells from this one, itself among them."""
+    return next((group for group in ALIKE if bug_id in group), frozenset((bug_id,)))
 
 
 def steps(bug_id):
@@ -25,8 +60,13 @@ def steps(bug_id):
 
 
 def planted(settings):
-    """The Steps of the tracer that the settings ask for: with their bug, or right."""
-    return steps(settings.bug) if settings.bug else RIGHT
+    """The Steps of the tracer that the settings ask for: with their bug, or right. Raises TracerError for a
+    bug that is not there, or that would never let go with these settings."""
+    if not settings.bug:
+        return RIGHT
+    wrong = steps(settings.bug)
+    ZOO[settings.bug].check(settings)
+    return wrong
 
 
 def changed(**steps):

@@ -2,8 +2,12 @@
 
 import numpy as np
 
-from lessons.zoo.bug import Bug
+from lessons.zoo.bug import HOMEWORK, Bug
+from lessons.zoo.where import mixed
 from tracer import warp
+from tracer.bsdf.sample import Sample
+from tracer.events import LOBES
+from tracer.frame import Frame, normalize
 from tracer.integrator.steps import bounce, next_ray
 
 MATCHED_PDF = "I1: the density of a bounce is that of the sampler that made it"
@@ -25,9 +29,29 @@ def one_quarter(scene, hit, wo, u):
     return sample._replace(wi=turned)
 
 
-def towards_the_surface(scene, hit, wo, u):
-    """The BSDF is asked with the ray's own direction, which points into the surface."""
-    return bounce(scene, hit, -wo, u)
+def around_the_position(scene, hit, wo, u):
+    """The hemisphere stands on the point's position vector, as if that were the normal."""
+    sample = bounce(scene, hit, wo, u)
+    world = Frame.around(normalize(hit.p)).to_world(sample.wi)
+    wi = scene.frame(hit.n, hit.p, hit.primitive).to_local(world)
+    f, pdf = (ask(hit.bsdf, wo, wi, hit.texture) for ask in (scene.bsdf.eval, scene.bsdf.pdf))
+    return mixed(sample.delta, sample, Sample(wi, f, pdf, sample.delta, sample.lobe))
+
+
+def whole_sphere(scene, hit, wo, u):
+    """Half of the directions go into the surface, where nothing comes back; the density is right."""
+    sample = bounce(scene, hit, wo, u)
+    diffuse = sample.lobe == LOBES.index("diffuse")
+    below = diffuse & (u[0] < 0.5)
+    x, y, z = sample.wi
+    wi = np.stack((x, y, np.where(below, -z, z)))
+    half = sample.pdf.dtype.type(0.5)
+    return sample._replace(wi=wi, f=sample.f * ~below, pdf=np.where(diffuse, half * sample.pdf, sample.pdf))
+
+
+def without_guard(sample):
+    """Whatever the density, the path goes on."""
+    return np.ones(sample.pdf.shape, bool)
 
 
 def without_pdf(beta, sample, cos):
@@ -64,6 +88,7 @@ BUGS = (
         "cosine-weighted directions, divided by 1/(2 pi)",
         MATCHED_PDF,
         {"bounce": cosine_taken_for_uniform},
+        settings=HOMEWORK | {"hemisphere": "cosine"},
     ),
     Bug(
         "B02",
@@ -74,12 +99,29 @@ BUGS = (
         {"throughput": without_pdf},
     ),
     Bug(
+        "B04",
+        "Position passed where the normal belongs",
+        "The ceiling is black and walls lose indirect light.",
+        "material.sample(wo, hit.p), where material.sample(wo, hit.n) belongs",
+        "I11: a reflected direction lies above the surface, dot(n, wi) > 0",
+        {"bounce": around_the_position},
+        note="The position is made a unit vector first.",
+    ),
+    Bug(
         "B05",
         "Local direction not turned into world space",
         "Surfaces that do not face z get half of their indirect light, or none.",
         "use (x, y, z) of the hemisphere as the ray's direction",
         "I11: a reflected direction lies above the surface, dot(n, wi) > 0",
         {"next_ray": local_as_world},
+    ),
+    Bug(
+        "B08",
+        "Whole sphere sampled for an opaque surface",
+        "Right on average, but much noisier: half of the paths end inside the walls.",
+        "a direction of the whole sphere with density 1/(4 pi), not flipped to the side of the normal",
+        "I11: a reflected direction lies above the surface, dot(n, wi) > 0",
+        {"bounce": whole_sphere},
     ),
     Bug(
         "B09",
@@ -106,11 +148,14 @@ BUGS = (
         {"throughput": unchanged},
     ),
     Bug(
-        "W01",
-        "wo not negated",
-        "There is no indirect light at all.",
-        "sample(ray.direction), which points into the surface, where -ray.direction belongs",
-        "I2: a BSDF is asked with directions that leave the surface",
-        {"bounce": towards_the_surface},
+        "B15",
+        "Division by a zero density",
+        "Single samples are not numbers; in the homework they make pixels white, here they are counted.",
+        "L += f * cos * trace(next) / pdf, without `if pdf > 0`",
+        "I10: all that a path records is finite, and no density it goes on with is 0",
+        {"carries": without_guard},
+        scene="materials",
+        note="With diffuse walls a density of 0 takes a direction within rounding of the surface, once in "
+        "millions of paths; a rough metal gives one whenever it mirrors below itself.",
     ),
 )

@@ -3,8 +3,9 @@
 import numpy as np
 
 from lessons.zoo.bug import Bug
+from lessons.zoo.light import behind_too
 from tracer import warp
-from tracer.integrator.steps import mis_weight
+from tracer.integrator.steps import emission, mis_weight
 
 COUNT_ONCE = "I7: over all ways to find it, the weights of one light path sum to 1"
 
@@ -17,6 +18,22 @@ def always(settings, strategy, pdf_bsdf, pdf_light):
 def never(settings, strategy, pdf_bsdf, pdf_light):
     """No lamp that a ray meets counts, not even the one that the camera sees."""
     return np.zeros_like(pdf_light)
+
+
+def never_filled(scene, hit, vertex, lit):
+    """The field of the hit that is read has never been written: every lamp is found dark."""
+    Le, pdf_light = emission(scene, hit, vertex, lit)
+    return np.zeros_like(Le), pdf_light
+
+
+def always_the_first(settings, strategy, pdf_bsdf, pdf_light):
+    """Every vertex takes itself for the camera's first."""
+    return always(settings, strategy, pdf_bsdf, pdf_light)
+
+
+def either_side(scene, hit):
+    """A lamp shines whichever side of it is met."""
+    return np.flatnonzero(hit.light >= 0)
 
 
 def of_another_sampler(settings, strategy, pdf_light, pdf_bsdf):
@@ -49,6 +66,32 @@ BUGS = (
         {"emission_weight": never},
     ),
     Bug(
+        "E03",
+        "Emission read from a field that is never filled",
+        "The lamp is black; the rest of the picture is right.",
+        "return hit.emit, which only the light sample fills, where hit.material.emission belongs",
+        COUNT_ONCE,
+        {"emission": never_filled},
+    ),
+    Bug(
+        "E04",
+        "Depth reset in the recursive call",
+        "Everything is twice too bright and full of white salt, though emission is guarded by the depth.",
+        "return trace(Ray(p, wi), 0), so that `if depth == 0: return emission` holds at every vertex",
+        COUNT_ONCE,
+        {"emission_weight": always_the_first},
+        note="Recorded depths stay right here: they name the random numbers.",
+    ),
+    Bug(
+        "E06",
+        "The lamp shines from both sides",
+        "A lamp that hangs free lights the ceiling above it; the homework's, right below it, shows nothing.",
+        "cos_light = abs(dot(n_lamp, -wi)), and emission returned for a hit from behind",
+        "I5: a light sample brings beta Le f cos cos_light V / (r^2 pdf_area), and Le is 0 behind the lamp",
+        {"shining": either_side, "light_point": behind_too},
+        scene="glass_slab",
+    ),
+    Bug(
         "M01",
         "MIS weights that do not sum to 1",
         "Slightly too dark or too bright, most where bounces and light samples are equally good.",
@@ -57,6 +100,7 @@ BUGS = (
         {"light_weight": of_another_sampler},
         scene="furnace",
         integrator="path",
+        settings={},
     ),
     Bug(
         "M02",
@@ -67,5 +111,6 @@ BUGS = (
         {"emission_weight": dirac_as_one},
         scene="cornell_glass",
         integrator="path",
+        settings={},
     ),
 )

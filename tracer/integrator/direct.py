@@ -18,8 +18,8 @@ def direct(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths, "light")
 
         # Le: the surface itself shines, and no light sample has counted it yet
-        lit = scene.shining(hit)
-        Le, pdf_light = scene.emission(hit, paths.vertex, lit)
+        lit = steps.shining(scene, hit)
+        Le, pdf_light = steps.emission(scene, hit, paths.vertex, lit)
         w = steps.emission_weight(settings, "light", paths.pdf_bsdf[lit], pdf_light)
         contribution = paths.beta[:, lit] * Le * w
         paths = paths.gain(contribution, lit)
@@ -27,7 +27,7 @@ def direct(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = scene.frame(hit.n, hit.p, hit.primitive)
+        frame = steps.frame(scene, hit)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

@@ -26,8 +26,8 @@ def path(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths, strategy)
 
         # Le: the surface itself shines, weighted against a light sample that would have found it
-        lit = scene.shining(hit)
-        Le, pdf_light = scene.emission(hit, paths.vertex, lit)
+        lit = steps.shining(scene, hit)
+        Le, pdf_light = steps.emission(scene, hit, paths.vertex, lit)
         w = steps.emission_weight(settings, strategy, paths.pdf_bsdf[lit], pdf_light)
         contribution = paths.beta[:, lit] * Le * w
         paths = paths.gain(contribution, lit)
@@ -35,7 +35,7 @@ def path(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = scene.frame(hit.n, hit.p, hit.primitive)
+        frame = steps.frame(scene, hit)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

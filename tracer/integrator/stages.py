@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES, Sparse
-from tracer.frame import cos_theta, dot, put
-from tracer.integrator.steps import RIGHT
+from tracer.frame import cos_theta, put
+from tracer.integrator.steps import RIGHT, any_channel
 from tracer.settings import TracerError
 
 _DELTA = TECHNIQUES.index("delta")
@@ -70,10 +70,10 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
     u = wave.random(paths.pixel, paths.sample, paths.depth, "light")
     light = wave.steps.light_point(scene, hit, u)
     wi = frame.to_local(light.wi)
-    f = scene.bsdf.eval(hit.bsdf, wo, wi, hit.texture)
+    f = wave.steps.eval(scene, hit, wo, wi)
     if scene.has_smooth_normals:
-        f = f * sides_agree(hit, light.wi)
-    pdf_bsdf = scene.bsdf.pdf(hit.bsdf, wo, wi, hit.texture)
+        f = f * wave.steps.sides_agree(hit, light.wi)
+    pdf_bsdf = wave.steps.pdf(scene, hit, wo, wi)
     if scene.lights.any_delta:  # no bounce meets these lights: their samples are never weighted
         pdf_bsdf = np.where(light.technique == _DELTA, 0.0, pdf_bsdf).astype(f.dtype)
     left = None
@@ -144,19 +144,6 @@ def _seen(scene, wave, hit, lanes, light, bright):
     return visible
 
 
-def any_channel(colour):
-    """Whether any channel of colours (3, N) is not 0, (N,)."""
-    return (colour[0] != 0.0) | (colour[1] != 0.0) | (colour[2] != 0.0)
-
-
-def sides_agree(hit, wi):
-    """Whether wi (3, N) is on the same side of the surface by its shading and by its true normal, (N,).
-
-    Light that only the shading normal lets through would leak through the surface (Veach 1997, 5.3).
-    """
-    return dot(hit.n, wi) * dot(hit.ng, wi) > 0.0
-
-
 def bounce_event(paths, sample, wi, cos, u, beta):
     """The BOUNCE of paths; wi is the new direction in world space, beta the throughput after it."""
     return BOUNCE(
@@ -181,9 +168,9 @@ def go_on(scene, wave, paths, hit, frame, wo):
     sample = steps.bounce(scene, hit, wo, u)
     wi = frame.to_world(sample.wi)
     if scene.has_smooth_normals:
-        sample = sample._replace(f=sample.f * sides_agree(hit, wi))
+        sample = sample._replace(f=sample.f * steps.sides_agree(hit, wi))
     cos = np.abs(cos_theta(sample.wi))
-    nowhere = ~((sample.pdf > 0.0) & any_channel(sample.f))
+    nowhere = ~steps.carries(sample)
     if paths.medium is not None:
         nowhere |= ~any_channel(paths.beta)  # nothing got through to here
     paths, hit, wi, sample, cos, u = yield from wave.stop(paths, nowhere, "absorbed", hit, wi, sample, cos, u)

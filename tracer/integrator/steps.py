@@ -5,8 +5,46 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracer.frame import dot
+
 AUTO_DEPTH = 4  # first bounce at which automatic roulette is played: before it, paths are worth their cost
 AUTO_MOST = 0.95  # its highest survival probability, so that a path in a white room still ends
+
+
+def random(draw, pixel, sample, depth, use):
+    """Numbers (k, N) in [0, 1) for one use; draw: the sampler, asked with the other arguments."""
+    return draw(pixel, sample, depth, use)
+
+
+def camera(scene, settings, film, lens):
+    """Origins and unit directions, both (3, N), of rays through film positions (2, N) in pixels."""
+    return scene.camera.rays(film, settings.width, settings.height, settings.dtype, lens)
+
+
+def intersect(scene, o, d, source):
+    """What rays meet first: distance (N,), inf for nothing, and primitive (N,), -1 for nothing; source: (N,)
+    the primitives they start on."""
+    return scene.intersect(o, d, source)
+
+
+def hit(scene, o, d, t, primitive):
+    """Everything about the points that rays meet, as a Hit: normals, side, material."""
+    return scene.hit(o, d, t, primitive)
+
+
+def shining(scene, hit):
+    """Places (K,) of the hits that lie on the bright side of a lamp."""
+    return scene.shining(hit)
+
+
+def emission(scene, hit, vertex, lit):
+    """Radiance (3, K) of the hits at places lit, and the density (K,) of a light sample for them."""
+    return scene.emission(hit, vertex, lit)
+
+
+def frame(scene, hit):
+    """The local frame of each hit, in which BSDFs are asked."""
+    return scene.frame(hit.n, hit.p, hit.primitive)
 
 
 def emission_weight(settings, strategy, pdf_bsdf, pdf_light):
@@ -60,9 +98,33 @@ def light_term(beta, f, cos, light, w):
     return beta * f * light.Le * (cos * w / safe * (light.pdf > 0.0))
 
 
+def eval(scene, hit, wo, wi):
+    """f (3, N) of each hit's BSDF for a light sample in direction wi; both directions (3, N) are local."""
+    return scene.bsdf.eval(hit.bsdf, wo, wi, hit.texture)
+
+
+def pdf(scene, hit, wo, wi):
+    """Density (N,) in sr^-1 with which a bounce would have gone to a light sample in direction wi."""
+    return scene.bsdf.pdf(hit.bsdf, wo, wi, hit.texture)
+
+
+def sides_agree(hit, wi):
+    """Whether wi (3, N) is on the same side of the surface by its shading and by its true normal, (N,).
+    Asked only in scenes where the two differ.
+
+    Light that only the shading normal lets through would leak through the surface (Veach 1997, 5.3).
+    """
+    return dot(hit.n, wi) * dot(hit.ng, wi) > 0.0
+
+
 def bounce(scene, hit, wo, u):
     """A direction from each hit's BSDF, as a Sample in the local frame; wo (3, N) is local too."""
     return scene.bsdf.sample(hit.bsdf, wo, u, hit.texture)
+
+
+def carries(sample):
+    """Whether each bounce brings anything, (N,): where it does not, the path is over."""
+    return (sample.pdf > 0.0) & any_channel(sample.f)
 
 
 def throughput(beta, sample, cos):
@@ -95,22 +157,39 @@ def next_ray(scene, hit, wi):
     return scene.spawn(hit, wi), wi
 
 
-def film(radiance):
-    """What a finished path's radiance (3, N) counts for in its pixel: itself."""
+def film(radiance, wave, lane):
+    """What a finished path's radiance (3, N) counts for in its pixel: itself. lane: (N,) places in the wave,
+    which knows pixels and settings."""
     return radiance
+
+
+def any_channel(colour):
+    """Whether any channel of colours (3, N) is not 0, (N,)."""
+    return (colour[0] != 0.0) | (colour[1] != 0.0) | (colour[2] != 0.0)
 
 
 @dataclass(frozen=True)
 class Steps:
     """The steps the loops call. The bug zoo, what-if and twin runs replace one of them."""
 
+    random: Callable = random
+    camera: Callable = camera
+    intersect: Callable = intersect
+    hit: Callable = hit
+    shining: Callable = shining
+    emission: Callable = emission
     emission_weight: Callable = emission_weight
+    frame: Callable = frame
     light_weight: Callable = light_weight
     light_point: Callable = light_point
+    eval: Callable = eval
+    pdf: Callable = pdf
+    sides_agree: Callable = sides_agree
     visibility: Callable = visibility
     transmittance: Callable = transmittance
     light_term: Callable = light_term
     bounce: Callable = bounce
+    carries: Callable = carries
     throughput: Callable = throughput
     survival: Callable = survival
     roulette: Callable = roulette

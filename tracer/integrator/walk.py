@@ -16,8 +16,8 @@ def walk(scene, settings, wave):
         paths, hit = yield from wave.meet(scene, paths, "bsdf")
 
         # Le: the surface itself shines
-        lit = scene.shining(hit)
-        Le, pdf_light = scene.emission(hit, paths.vertex, lit)
+        lit = wave.steps.shining(scene, hit)
+        Le, pdf_light = wave.steps.emission(scene, hit, paths.vertex, lit)
         w = wave.steps.emission_weight(settings, "bsdf", paths.pdf_bsdf[lit], pdf_light)
         contribution = paths.beta[:, lit] * Le * w
         paths = paths.gain(contribution, lit)
@@ -25,7 +25,7 @@ def walk(scene, settings, wave):
 
         # Vertices that nothing can be added to
         paths, hit = yield from wave.stop(paths, paths.depth >= settings.last_depth, "max_depth", hit)
-        frame = scene.frame(hit.n, hit.p, hit.primitive)
+        frame = wave.steps.frame(scene, hit)
         wo = frame.to_local(hit.wo)
         dark = ~scene.bsdf.reflects(hit.bsdf, wo)
         paths, hit, wo, frame = yield from wave.stop(paths, dark, "black", hit, wo, frame)

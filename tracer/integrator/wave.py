@@ -1,5 +1,6 @@
 """A wave of paths: where they begin, what each carries along, and what they leave behind."""
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -66,6 +67,8 @@ class Wave:
         self.sample = np.asarray(sample).astype(np.uint32)
         self.settings, self.steps = settings, steps
         self.random = samplers.of(settings)
+        if steps.random is not RIGHT.random:
+            self.random = partial(steps.random, self.random)
         self.radiance = np.zeros((3, self.x.size), settings.dtype)
         self.dropped = 0
         self.rays = 0
@@ -80,7 +83,7 @@ class Wave:
             jitter = self.random(pixel, self.sample, depth, "film")
         film = np.stack((self.x, self.y)).astype(dtype) + jitter
         lens = self.random(pixel, self.sample, depth, "lens") if scene.camera.aperture_radius else None
-        o, d = scene.camera.rays(film, self.settings.width, self.settings.height, dtype, lens)
+        o, d = self.steps.camera(scene, self.settings, film, lens)
         beta = np.ones((3, n), dtype)
         lane = np.arange(n, dtype=np.int32)
         yield CAMERA(lane, depth, film=film, o=o, d=d, beta=beta)
@@ -98,7 +101,7 @@ class Wave:
     def meet(self, scene, paths, strategy):
         """Yield the events of rays that meet nothing, with what the environment sends along them; return the
         other paths and their hits. strategy: how lights are found, for the weight."""
-        t, primitive = scene.intersect(paths.o, paths.d, paths.source)
+        t, primitive = self.steps.intersect(scene, paths.o, paths.d, paths.source)
         self.rays += self.count(paths.lane)
         met = primitive >= 0
         if self._over or not met.all():
@@ -111,7 +114,7 @@ class Wave:
         if paths.medium is not None:
             left = self.steps.transmittance(scene, paths.medium, t)
             paths = paths._replace(beta=paths.beta * left, transmittance=left)
-        return paths, scene.hit(paths.o, paths.d, t, primitive)
+        return paths, self.steps.hit(scene, paths.o, paths.d, t, primitive)
 
     def _escape(self, scene, paths, lanes, strategy):
         """Yield the events of those paths (their places: lanes) that leave the scene, with the environment's
@@ -162,7 +165,7 @@ class Wave:
 
         A path whose radiance is not finite counts as 0, is counted, and ends as "invalid".
         """
-        counted = self.steps.film(L)
+        counted = self.steps.film(L, self, lane)
         finite = np.isfinite(counted[0]) & np.isfinite(counted[1]) & np.isfinite(counted[2])
         reasons = np.full(lane.size, _REASON[reason])
         if not finite.all():
