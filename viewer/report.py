@@ -106,13 +106,3 @@ def _print_samples(record, chosen, console):
     elif several and parts:
         console.print(f"its error comes from the spread of {parts} replicates")
     console.print("* shown above; --sample K shows another" if several else "")
-
-
-def print_bugs(bugs, console=None):
-    """The bug zoo as a table."""
-    table = Table(box=None)
-    for name in ("id", "bug", "seen as", "law broken"):
-        table.add_column(name)
-    for bug in bugs:
-        table.add_row(bug.id, bug.title, bug.symptom, bug.law)
-    (console or Console(highlight=False)).print(table)

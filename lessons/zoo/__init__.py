@@ -44,7 +44,7 @@ ZOO = {bug.id: bug for bugs in FAMILIES.values() for bug in bugs}
 # Mistakes that no recording tells apart: they give the same numbers, or none at all.
 ALIKE = (frozenset(("E01", "E04")), frozenset(("D01", "D02")), frozenset(("P01", "P07")))
 
-__all__ = ["ALIKE", "FAMILIES", "RIGHT", "ZOO", "Bug", "alike", "changed", "planted", "steps"]
+__all__ = ["ALIKE", "FAMILIES", "RIGHT", "ZOO", "Bug", "alike", "changed", "of", "planted", "steps"]
 
 
 def alike(bug_id):
@@ -52,11 +52,16 @@ def alike(bug_id):
     return next((group for group in ALIKE if bug_id in group), frozenset((bug_id,)))
 
 
-def steps(bug_id):
-    """The Steps of a tracer with this bug. Raises TracerError with the ids there are."""
+def of(bug_id):
+    """The Bug with this id. Raises TracerError with the ids there are."""
     if bug_id not in ZOO:
         raise TracerError(f"bug: {bug_id!r} is not in the zoo; there are {', '.join(ZOO)}")
-    return ZOO[bug_id].steps
+    return ZOO[bug_id]
+
+
+def steps(bug_id):
+    """The Steps of a tracer with this bug. Raises TracerError with the ids there are."""
+    return of(bug_id).steps
 
 
 def planted(settings):
@@ -64,9 +69,9 @@ def planted(settings):
     bug that is not there, or that would never let go with these settings."""
     if not settings.bug:
         return RIGHT
-    wrong = steps(settings.bug)
-    ZOO[settings.bug].check(settings)
-    return wrong
+    bug = of(settings.bug)
+    bug.check(settings)
+    return bug.steps
 
 
 def changed(**steps):

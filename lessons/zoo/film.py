@@ -88,7 +88,7 @@ BUGS = (
     Bug(
         "F06",
         "Aspect ratio by integer division",
-        "The picture is stretched: an oblong picture shows too much above and below.",
+        "The picture is squashed: an oblong one shows too much above and below.",
         "aspect = width / height with both of them int",
         "I13: camera rays go through their own place on the film",
         {"camera": aspect_of_whole_numbers},

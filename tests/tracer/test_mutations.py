@@ -1,18 +1,43 @@
-"""Every mistake of the bug zoo is caught by the suite's checks, and the right tracer passes them all.
+"""The mistakes of the bug zoo are caught by the suite's checks, and the right tracer passes them all.
 
 Each check allows 4 standard errors, or a significance of 1 %; a mistake is planted by replacing a step, and
-the loops themselves stay as they are.
+the loops themselves stay as they are. Some mistakes show only with things that the scenes of these checks
+have not; tests/tracer/test_zoo.py looks at them, and at all others, in scenes of their own.
 """
 
 import pickle
 
 import checks
 import pytest
+from zoo_looks import LOOKS
 
 from lessons import zoo
 from tracer import TracerError, built_in_scenes
 from tracer.integrator import ALL as LOOPS
 
+# What the checks' scenes have not: several lamps and spheres that shine, rough and varnished surfaces, clear
+# glass, smooth normals, spheres that scatter; pictures that are not square, and edges. P02 never ends.
+ELSEWHERE = {
+    *(
+        "D14",
+        "D18",
+        "B15",
+        "W03",
+        "N03",
+        "N04",
+        "G09",
+        "B14",
+        "S07",
+        "S08",
+        "S09",
+        "S02",
+        "S04",
+        "S06",
+        "G08",
+    ),
+    *("F05", "F06", "P02"),
+}
+TO_CATCH = {k: bug for k, bug in zoo.ZOO.items() if k not in ELSEWHERE and not bug.only_cost}
 every_bug = pytest.mark.parametrize("bug", zoo.ZOO.values(), ids=zoo.ZOO)
 
 
@@ -24,7 +49,7 @@ def test_the_right_tracer_passes(suite_seed, check):
 
 @pytest.mark.slow
 @pytest.mark.statistical
-@every_bug
+@pytest.mark.parametrize("bug", TO_CATCH.values(), ids=TO_CATCH)
 def test_a_planted_bug_is_caught(suite_seed, bug):
     seen = {}
     for check in checks.CHECKS:
@@ -35,14 +60,15 @@ def test_a_planted_bug_is_caught(suite_seed, bug):
     pytest.fail(f"{bug.id} {bug.title} passes every check: {seen}")
 
 
-def test_there_are_a_dozen_and_more():
-    assert len(zoo.ZOO) >= 12
+def test_most_bugs_are_caught_here_and_all_others_are_looked_at():
+    assert ELSEWHERE <= set(LOOKS)
+    assert len(TO_CATCH) > 2 * len(ELSEWHERE)
 
 
 @every_bug
 def test_a_bug_is_told_in_full(bug):
     assert zoo.ZOO[bug.id] is bug
-    assert all((bug.title, bug.symptom, bug.wrong, bug.law, bug.changes))
+    assert all((bug.title, bug.symptom, bug.wrong, bug.law, bug.changes or bug.only_cost))
     assert bug.scene in built_in_scenes()
     assert bug.integrator in LOOPS
     for step, wrong in bug.changes.items():

@@ -1,0 +1,89 @@
+"""The zoo of usual mistakes: as a list, one of them in full, and pictures of what they do."""
+
+import numpy as np
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+
+import tracer
+from lessons.zoo import FAMILIES, RIGHT, alike
+from tracer.settings import TracerError
+from viewer.progress import watched
+
+SIDE, SPP = 96, 16  # longer side of a thumbnail in pixels, and its samples
+GAP = 2  # pixels of white between the wrong picture and the right one
+
+
+def print_bugs(console):
+    """Every family with its bugs: id, title, and how they look."""
+    for family, members in FAMILIES.items():
+        table = Table(title=family, title_justify="left", title_style="bold", box=None, show_header=False)
+        table.add_column(min_width=3, no_wrap=True, style="cyan")
+        table.add_column()
+        for bug in members:
+            table.add_row(bug.id, f"{bug.title}\n[dim]{bug.symptom}[/dim]")
+        console.print(table)
+        console.print()
+    console.print("castray bugs ID says all about one; --bug ID plants it in render, inspect and view")
+
+
+def print_bug(bug, console):
+    """All that the zoo knows of one bug."""
+    console.print(f"[bold cyan]{bug.id}[/] [bold]{bug.title}[/]")
+    others = sorted(alike(bug.id) - {bug.id})
+    said = {
+        "seen as": bug.symptom,
+        "wrong code": bug.wrong,
+        "law broken": bug.law,
+        "steps replaced": ", ".join(bug.changes) or "none",
+        "shows in": bug.command,
+        "cannot be told from": ", ".join(others),
+        "here": bug.note,
+    }
+    table = Table(box=None, show_header=False)
+    table.add_column(no_wrap=True, style="dim")
+    table.add_column()
+    for name, text in said.items():
+        if text:
+            table.add_row(name, text)
+    console.print(Padding(table, (0, 0, 0, 1)))
+
+
+def as_dict(bug):
+    """Plain values of a bug, as `castray bugs --json` prints them."""
+    family = next(name for name, members in FAMILIES.items() if bug in members)
+    texts = {
+        name: getattr(bug, name) for name in ("id", "title", "symptom", "wrong", "law", "note", "command")
+    }
+    return texts | {
+        "family": family,
+        "steps": list(bug.changes),
+        "scene": bug.scene,
+        "integrator": bug.integrator,
+        "settings": bug.settings,
+        "only_cost": bug.only_cost,
+        "alike": sorted(alike(bug.id)),
+    }
+
+
+def draw(chosen, folder):
+    """Put pictures ID.png of the bugs that change one into a folder; {id: path}. Raises TracerError."""
+    if not folder.is_dir():
+        raise TracerError(f"{folder}: is not a folder; make it first")
+    seen = [bug for bug in chosen if not bug.only_cost]
+    drawn, right = {}, {}
+    with watched("rendering") as progress:
+        for done, bug in enumerate(seen):
+            scene = tracer.load(bug.scene)
+            scale = SIDE / max(scene.width, scene.height)
+            width, height = (max(round(scale * side), 1) for side in (scene.width, scene.height))
+            settings = bug.asked(width=width, height=height, spp=SPP)
+            wrong = tracer.render(scene, settings, steps=bug.steps).rgb
+            if (bug.scene, settings) not in right:
+                right[bug.scene, settings] = tracer.render(scene, settings, steps=RIGHT).rgb
+            gap = np.ones((height, GAP, 3), wrong.dtype)
+            drawn[bug.id] = folder / f"{bug.id}.png"
+            tracer.write(np.concatenate((wrong, gap, right[bug.scene, settings]), axis=1), drawn[bug.id])
+            if progress:
+                progress(done + 1, len(seen))
+    return drawn
