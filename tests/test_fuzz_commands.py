@@ -119,7 +119,7 @@ commands = st.one_of(
     st.tuples(
         st.just("bsdf"), st.sampled_from(["Au", "bk7", "diffuse", "plastic", "dielectric", "x", ""])
     ).map(list),
-    st.just(["bugs"]),
+    st.sampled_from([["bugs"], ["bugs", "E01"], ["bugs", "E99"]]),
     st.lists(odd, max_size=3),
 )
 

@@ -1,7 +1,6 @@
 """The zoo of usual mistakes: as a list, one of them in full, and pictures of what they do."""
 
 import numpy as np
-from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
