@@ -19,6 +19,7 @@ from tracer.integrator.wave import Wave
 MORE, LESS, OTHER = 1, -1, 0
 LAMP = (0.44, 0.14, 0.56, 0.2)
 ROUND_THE_LAMP = (0.36, 0.1, 0.64, 0.2)
+METAL_BALLS = (0.1, 0.45, 0.5, 0.75)
 GLASS_BALL = (0.55, 0.6, 0.85, 0.95)
 BELOW_THE_LAMP = (0.0, 0.25, 1.0, 1.0)
 LEFT, BACK = (HOMEWORK[name][0] for name in ("left wall", "back wall"))
@@ -40,9 +41,9 @@ def light(bug, steps, seed, **part):
     return picture(bug, steps, seed, **part).ravel()
 
 
-def clipped(bug, steps, seed, **part):
-    """Every sample, but none above 100: a bug without bounds has no mean to speak of."""
-    return np.minimum(light(bug, steps, seed, **part), 100.0)
+def clipped(bug, steps, seed, most=100.0, **part):
+    """Every sample, but none above `most`: rare bright ones would drown the rest."""
+    return np.minimum(light(bug, steps, seed, **part), most)
 
 
 def spread(bug, steps, seed, **part):
@@ -131,7 +132,7 @@ LOOKS = {
     "E02": (part(LAMP), LESS),
     "E03": (part(LAMP), LESS),
     "E04": (part(side=64, spp=16), MORE),
-    "E06": (light, MORE),
+    "E06": (part(spp=16), MORE),
     "M01": (light, OTHER),
     "M02": (light, LESS),
     "D01": (light, LESS),
@@ -144,7 +145,7 @@ LOOKS = {
     "D10": (light, MORE),
     "D11": (light, MORE),
     "D13": (light, MORE),
-    "D14": (light, LESS),
+    "D14": (part(look=clipped, most=5.0), LESS),
     "D15": (of_paths(lopsided, "light"), MORE),
     "D17": (of_paths(off_the_diagonal, "light"), LESS),
     "D18": (of_paths(at_a_pole, "light"), MORE),
@@ -161,7 +162,7 @@ LOOKS = {
     "B15": (of_paths(not_a_number, "end", size=(64, 64)), MORE),
     "W01": (part(BELOW_THE_LAMP), LESS),
     "W02": (light, OTHER),
-    "W03": (part(GLASS_BALL, side=128), OTHER),
+    "W03": (part(GLASS_BALL, clipped, side=128, most=2.0), OTHER),
     "W04": (part(BACK, side=64), LESS),
     "N01": (part(LEFT, side=64), LESS),
     "N02": (part(LEFT, side=64), LESS),
@@ -171,8 +172,8 @@ LOOKS = {
     "B18": (part(LEFT, side=64), MORE),
     "G09": (of_paths(under_the_surface, "bounce", size=(64, 64)), MORE),
     "B03": (clipped, MORE),
-    "B14": (light, OTHER),
-    "S07": (part(side=64, spp=16), LESS),
+    "B14": (part(look=clipped, most=5.0), OTHER),
+    "S07": (part(METAL_BALLS, clipped, side=128, spp=16, most=5.0), LESS),
     "S08": (of_paths(not_a_number, "end"), MORE),
     "S09": (light, MORE),
     "A01": (light, MORE),
@@ -181,14 +182,14 @@ LOOKS = {
     "S04": (light, OTHER),
     "S06": (of_paths(through_glass, "bounce"), MORE),
     "G01": (light, LESS),
-    "G02": (light, OTHER),
+    "G02": (part(side=64), OTHER),
     "G03": (light, LESS),
     "G08": (light, LESS),
     "R01": (light, LESS),
     "R03": (light, LESS),
     "R05": (light, LESS),
     "R06": (part(BELOW_THE_LAMP, spread, spp=32, side=64, max_depth=3), MORE),
-    "P02": (part(BELOW_THE_LAMP, spread), LESS),
+    "P02": (part(BELOW_THE_LAMP, spread, side=64), LESS),
     "P03": (part(BELOW_THE_LAMP, alikeness, side=64), MORE),
     "F01": (light, LESS),
     "F03": (part(BACK, side=64), MORE),
