@@ -19,6 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from tracer.doctor import examine
     from tracer.engine import inspect, render
     from tracer.film import fold
     from tracer.picture import read, write
@@ -31,6 +32,7 @@ __all__ = [
     "Settings",
     "TracerError",
     "built_in_scenes",
+    "examine",
     "export",
     "fold",
     "inspect",
@@ -44,6 +46,7 @@ __all__ = [
 # Where each public name lives. Its module is imported when the name is first used: who only wants a BSDF
 # does not wait for the engine.
 _HOME = {
+    "tracer.doctor": ("examine",),
     "tracer.engine": ("inspect", "render"),
     "tracer.film": ("fold",),
     "tracer.picture": ("read", "write"),

@@ -1,6 +1,6 @@
 """The path options of the command line, made from the one place where settings are declared."""
 
-from dataclasses import fields, make_dataclass
+from dataclasses import fields, make_dataclass, replace
 from json import dumps
 from typing import Annotated, Any
 
@@ -52,11 +52,13 @@ def path_options(name, without=(), size="default: the scene's"):
     )
 
 
+_SHRUNK = f"default: the scene's, made smaller until its longer side is {SMALL_SIDE}"
 PathOptions = path_options("PathOptions")
+DoctorOptions = path_options("DoctorOptions", size=_SHRUNK)
 BenchOptions = path_options(  # without what `castray bench` measures
     "BenchOptions",
     ("integrator", "strategy", "sampler", "replicates", "precision", "spp"),
-    f"default: the scene's, made smaller until its longer side is {SMALL_SIDE}",
+    _SHRUNK,
 )
 Whole = Parameter(converter=_whole)
 Json = Annotated[bool, Parameter(help="print one JSON document and nothing else", negative=())]
@@ -65,6 +67,15 @@ Json = Annotated[bool, Parameter(help="print one JSON document and nothing else"
 def print_json(document):
     """One JSON document on standard output."""
     print(dumps(document, allow_nan=False, ensure_ascii=True))
+
+
+def shrunk(settings, scene):
+    """The settings at the size asked for, or a small one of the scene's shape."""
+    if settings.width is not None:
+        return settings
+    shrink = min(1.0, SMALL_SIDE / max(scene.width, scene.height))
+    width, height = (max(1, round(side * shrink)) for side in (scene.width, scene.height))
+    return replace(settings, width=width, height=height)
 
 
 def settings_and_steps(options):

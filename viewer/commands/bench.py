@@ -10,13 +10,13 @@ from cyclopts import Parameter
 import tracer
 from tracer.settings import TracerError
 from viewer.options import (
-    SMALL_SIDE,
     BenchOptions,
     Json,
     Whole,
     print_json,
     settings_and_steps,
     several_whole,
+    shrunk,
 )
 from viewer.progress import watched
 
@@ -176,9 +176,7 @@ def _at_size(base, scene, reference):
     """The settings at the size asked for, the given reference's, or a small one of the scene's shape."""
     if base.width is not None or reference is not None:
         return base
-    shrink = min(1.0, SMALL_SIDE / max(scene.width, scene.height))
-    width, height = (max(1, round(side * shrink)) for side in (scene.width, scene.height))
-    return replace(base, width=width, height=height)
+    return shrunk(base, scene)
 
 
 def _willing(study, estimators, steps):

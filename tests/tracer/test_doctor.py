@@ -1,0 +1,141 @@
+"""The doctor: right traces break no law, each law has a broken twin, and mistakes are told by their names."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from mutants import MUTANTS, traced, with_column
+
+import tracer
+from lessons import zoo
+from tracer.doctor import LAWS, examine
+from tracer.events import KINDS
+from tracer.trace import gather
+
+SMALL = {"width": 16, "height": 16, "spp": 4}
+HOMEWORK = {"hemisphere": "uniform", "roulette": "0.8", "light_sampling": "area"}
+kept = cache(traced)
+
+
+def zoo_trace(*bugs, **options):
+    """A small trace with some of the zoo's bugs planted at once, in the scene of the first."""
+    first = zoo.ZOO[bugs[0]]
+    changes = {name: step for bug in bugs for name, step in zoo.ZOO[bug].changes.items()}
+    asked = {"integrator": first.integrator} | getattr(first, "settings", {}) | SMALL | options
+    return gather(tracer.load(first.scene), tracer.Settings(**asked), zoo.changed(**changes))
+
+
+def fired(diagnosis):
+    return {verdict.rule.id for verdict in diagnosis.rules if verdict.state == "fired"}
+
+
+@pytest.mark.parametrize("name", ["room", "rooms", "glass", "sky", "smooth"])
+def test_a_right_trace_breaks_no_law(name):
+    diagnosis = examine(kept(name))
+    assert not diagnosis.findings
+    assert sum(v.state == "clean" for v in diagnosis.rules) > 40
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("options", [{}, HOMEWORK], ids=["default", "homework"])
+@pytest.mark.parametrize("scene", tracer.built_in_scenes())
+def test_right_tracers_break_no_law_in_any_scene(scene, options, precision):
+    loaded = tracer.load(scene)
+    for integrator in ("path", "direct", "walk"):
+        if integrator == "walk" and loaded.unmeetable:
+            continue
+        trace = gather(
+            loaded, tracer.Settings(integrator=integrator, precision=precision, **SMALL, **options)
+        )
+        diagnosis = examine(trace)
+        assert not diagnosis.findings, diagnosis.findings[0]
+        assert sum(v.abstained for v in diagnosis.rules) < 0.02 * sum(v.checked for v in diagnosis.rules)
+
+
+@pytest.mark.parametrize("rule", MUTANTS)
+def test_each_law_has_a_broken_twin(rule):
+    name, mutate = MUTANTS[rule]
+    assert rule in fired(examine(mutate(kept(name))))
+
+
+def test_every_law_has_a_mutant():
+    assert {rule.id for rule in LAWS} == MUTANTS.keys()
+
+
+NAMED = {
+    "E01": "emission-weight", "E02": "emission-weight", "M01": "light-weight", "M02": "emission-weight",
+    "D01": "light-visible", "D03": "light-visible", "D04": "light-visible", "D07": "light-term",
+    "D10": "light-term", "D11": "light-term", "D13": "light-term", "D20": "unit-light",
+    "B01": "bounce-pdf", "B02": "throughput", "B05": "chain", "B10": "first-surface", "B12": "throughput",
+    "W01": "absorbed", "R01": "roulette-weight", "R03": "roulette-survival", "R05": "roulette-probability",
+    "R06": "roulette-probability", "F01": "ledger", "F03": "ledger", "A01": "transmittance",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("bug", NAMED)
+def test_a_bug_of_the_zoo_is_named_first_by_the_law_that_it_breaks(bug):
+    first = examine(zoo_trace(bug)).findings[0]
+    assert (first.bug, first.rule) == (bug, NAMED[bug])
+    assert first.count > 0 and first.explanation
+
+
+def test_several_bugs_at_once_are_told_apart():
+    diagnosis = examine(zoo_trace("E01", "D01", "D10", "B12", "R01", "F01"))
+    assert set(diagnosis.bugs) == {"E01", "D01", "D10", "B12", "R01", "F01"}
+
+
+def test_which_bug_is_switched_on_is_not_looked_at():
+    right, wrong = kept("room"), zoo_trace("D10")
+    said = examine(wrong).as_dict()
+    for bug in (None, "E01", "D10"):
+        swapped = replace(wrong, settings=replace(wrong.settings, bug=bug))
+        assert examine(swapped).as_dict() == said
+        assert not examine(replace(right, settings=replace(right.settings, bug=bug))).findings
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_a_law_without_its_columns_is_not_testable_and_says_which(kind):
+    whole = kept("room")
+    for field in (f for f in kind.fields if f.carried):
+        place = f"{kind.name}.{field.name}"
+        diagnosis = examine(with_column(whole, place, None))
+        assert not diagnosis.findings, place
+        for verdict in diagnosis.rules:
+            if place in verdict.rule.needs:
+                assert verdict.state == "not_testable" and place in verdict.missing
+
+
+def test_a_finding_shows_both_numbers_the_path_and_how_to_see_it():
+    diagnosis = examine(zoo_trace("D10"))
+    finding = diagnosis.findings[0]
+    x, y, sample = (finding.first[name] for name in ("x", "y", "sample"))
+    assert f"castray inspect cornell --pixel {x} {y} --sample {sample}" in finding.command
+    assert "--integrator direct" in finding.command and "--bug" not in finding.command
+    trace = zoo_trace("D10")
+    table = trace.tables["light"]
+    (path,) = np.flatnonzero(
+        (trace.paths["x"] == x) & (trace.paths["y"] == y) & (trace.paths["sample"] == sample)
+    )
+    (row,) = np.flatnonzero((table.path == path) & (table.step == finding.first["step"]))
+    np.testing.assert_array_equal(finding.recorded, table["contribution"][:, row])
+    np.testing.assert_allclose(
+        np.array(finding.recorded) * float(table["cos"][row]), finding.right, rtol=1e-5
+    )
+
+
+def test_what_cannot_be_told_has_no_name():
+    odd = with_column(
+        kept("room"), "light.contribution", kept("room").tables["light"]["contribution"] * np.float32(1.37)
+    )
+    (finding,) = [f for f in examine(odd).findings if f.rule == "light-term"]
+    assert finding.bug is None and finding.count > 0
+
+
+@pytest.mark.parametrize(
+    "options", [{"max_depth": 0}, {"max_depth": 1}, {"max_depth": 2}, {"width": 1, "height": 1, "spp": 1}]
+)
+def test_traces_with_hardly_an_event_are_judged(options):
+    assert not examine(traced("room", **options)).findings
+    assert not examine(traced("sky", **options)).findings

@@ -1,0 +1,177 @@
+"""Findings of a trace, the first cause first."""
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from tracer.doctor.evidence import Evidence
+from tracer.doctor.laws import LAWS
+from tracer.doctor.naming import named
+from tracer.doctor.rule import FIRED, applied
+
+# What breaks together: where the first of a group is broken, the others are too, by the same mistake.
+_TOGETHER = (
+    ("camera-ray", "camera-start", "chain", "escape-direction", "first-surface", "escape-free", "on-surface",
+     "distance", "wo"),
+    ("unit-normal", "normal", "shading-normal", "side"),
+    ("transmittance", "light-transmittance", "throughput-on-arrival"),
+    ("emission", "pdf-of-light"),
+    ("roulette-probability", "roulette-played"),
+    ("light-pick", "light-pdf"),
+    ("light-radiance", "light-pdf"),
+)  # fmt: skip
+_ALWAYS_LATER = ("domain", "finite")  # what any mistake may lead to
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A law that a trace breaks.
+
+    bug: id of the most likely mistake of the catalogue, None where none fits; alike: ids that no trace tells
+    from it; count of checked events; first: where it shows, {x, y, sample, depth}, with the kind of event and
+    its step in the path; recorded and right: the number there, side by side; p: of a statistical law;
+    follows: id of the finding that this one comes from, None for a cause of its own.
+    """
+
+    rule: str
+    title: str
+    law: str
+    formula: str
+    bug: str | None
+    alike: tuple
+    count: int
+    checked: int
+    first: dict | None
+    what: str
+    recorded: list | None
+    right: list | None
+    explanation: str
+    command: str | None
+    follows: str | None = None
+    p: float | None = None
+    lesson: str | None = None
+
+    def as_dict(self):
+        """Plain values."""
+        return {
+            name: list(value) if isinstance(value, tuple) else value for name, value in vars(self).items()
+        }
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What the doctor says of a trace: findings, the first cause first, and every rule's verdict."""
+
+    findings: tuple
+    rules: tuple
+
+    @property
+    def causes(self):
+        """The findings that do not follow from others."""
+        return tuple(f for f in self.findings if f.follows is None)
+
+    def replayed_with(self, words):
+        """The same, with words at the end of each command that replays a path."""
+        more = (replace(f, command=f.command and f"{f.command} {words}") for f in self.findings)
+        return replace(self, findings=tuple(more))
+
+    @property
+    def bugs(self):
+        """Ids of the mistakes that are named, the first cause first, each once."""
+        return tuple(dict.fromkeys(f.bug for f in self.causes if f.bug))
+
+    def as_dict(self):
+        """Plain values, as `castray doctor --json` prints them."""
+        rules = [
+            {
+                "rule": v.rule.id, "title": v.rule.title, "law": v.rule.law, "formula": v.rule.formula,
+                "state": v.state, "checked": v.checked, "failed": v.failed, "abstained": v.abstained,
+                "missing": v.missing or None, "p": v.outcome.p if v.outcome else None,
+            }
+            for v in self.rules
+        ]  # fmt: skip
+        return {"findings": [f.as_dict() for f in self.findings], "rules": rules}
+
+
+def examine(trace):
+    """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked."""
+    evidence = Evidence(trace)
+    verdicts = tuple(applied(rule, evidence) for rule in LAWS)
+    findings = [_finding(evidence, verdict) for verdict in verdicts if verdict.state == FIRED]
+    return Diagnosis(_ranked(findings), verdicts)
+
+
+def _ranked(findings):
+    """Causes first, in the order of the rules, and after each what follows from it."""
+    fired = [f.rule for f in findings]
+    ordered = []
+    for f in findings:
+        cause = _cause(f.rule, fired)
+        ordered.append(f if cause is None else _following(f, cause))
+    return tuple(sorted(ordered, key=lambda f: f.follows is not None))
+
+
+def _cause(rule, fired):
+    if rule in _ALWAYS_LATER:
+        return next((other for other in fired if other not in _ALWAYS_LATER), None)
+    for group in _TOGETHER:
+        if rule in group:
+            for other in group[: group.index(rule)]:
+                if other in fired:
+                    return other
+    return None
+
+
+def _following(finding, cause):
+    return replace(finding, follows=cause, bug=None, alike=())
+
+
+def _finding(evidence, verdict):
+    rule, outcome = verdict.rule, verdict.outcome
+    clue = named(evidence, rule, outcome)
+    k = int(np.flatnonzero(outcome.wrong)[0])
+    first = _place(evidence, outcome.kind, int(outcome.rows[k]))
+    recorded, right = (_plain(column, k) for column in (outcome.recorded, outcome.right))
+    words = clue.words
+    if not words and outcome.note:
+        words = outcome.note
+    return Finding(
+        rule.id, rule.title, rule.law, rule.formula, clue.bug, clue.alike, verdict.failed, verdict.checked,
+        first, outcome.what, recorded, right, words, _command(evidence, first), p=outcome.p,
+    )  # fmt: skip
+
+
+def _place(evidence, kind, row):
+    trace = evidence.trace
+    table = trace.tables.get(kind)
+    path = row if table is None else int(table.path[row])
+    place = {name: int(trace.paths[name][path]) for name in ("x", "y", "sample")}
+    if table is None:
+        return place | {"depth": None, "kind": None, "step": None}
+    return place | {"depth": int(table.depth[row]), "kind": kind, "step": int(table.step[row])}
+
+
+def _plain(column, k):
+    if column is None:
+        return None
+    values = np.atleast_1d(np.asarray(column[..., k], float)).ravel()
+    return [float(v) if np.isfinite(v) else None for v in values]
+
+
+def _command(evidence, first):
+    """The words that show the path again."""
+    if first is None:
+        return None
+    words = [
+        f"castray inspect {evidence.scene.name} --pixel {first['x']} {first['y']} --sample {first['sample']}"
+    ]
+    settings = evidence.settings
+    if settings.width and settings.height:
+        words.append(f"--size {settings.width} {settings.height}")
+    for f in fields(settings):
+        value = getattr(settings, f.name)
+        if f.name in ("width", "height", "bug") or value == f.default:
+            continue
+        option = f.name.replace("_", "-")
+        words.append(f"--no-{option}" if value is False else f"--{option} {value}")
+    return " ".join(words)

@@ -1,0 +1,180 @@
+"""Light samples: what the surface makes of them, whether they are seen, and what arrives."""
+
+import numpy as np
+
+from tracer.doctor.compare import judged
+from tracer.doctor.laws.chain import carried
+from tracer.doctor.laws.emission import mis, strategy
+from tracer.doctor.rule import Outcome, Rule
+from tracer.frame import dot, length
+
+
+def reflected(evidence):
+    """I2: f is that of the surface at this vertex."""
+    return asked_again(evidence, "light", "eval", "f", evidence.sound("light", "wi"))
+
+
+def asked_again(evidence, kind, method, field, sound, rows=None):
+    """The Outcome of `eval` or `pdf` asked anew at the events `rows` of a kind."""
+    rows = np.arange(evidence.count(kind)) if rows is None else rows
+    off = evidence.off_unit
+    inputs = {
+        "p": (evidence.at_vertex(kind, "p")[:, rows], evidence.off_point),
+        "n": (evidence.at_vertex(kind, "n")[:, rows], off),
+        "wo": (evidence.at_vertex(kind, "wo")[:, rows], off),
+        "wi": (evidence(f"{kind}.wi")[:, rows], off),
+        "primitive": (evidence.at_vertex(kind, "primitive")[rows], 0.0),
+    }
+
+    def value(p, n, wo, wi, primitive):
+        return evidence.asked(p, n, wo, wi, primitive, method)
+
+    recorded = evidence(f"{kind}.{field}")[..., rows]
+    return judged(evidence, kind, rows, recorded, value, inputs, field, sound[rows])
+
+
+def cosine(kind):
+    """I3: cos = |n . wi|."""
+
+    def judge(evidence):
+        right = np.abs(dot(evidence.at_vertex(kind, "n"), evidence(f"{kind}.wi")))
+        recorded = evidence(f"{kind}.cos")
+        good = evidence.sound(kind, "wi")
+        bad = ~(np.abs(recorded - right) <= 4.0 * evidence.off_unit) & good
+        return Outcome(kind, np.arange(bad.size), bad, ~good, recorded, right, "cos")
+
+    return judge
+
+
+def density_of_bouncing(evidence):
+    """pdf_bsdf of a light sample: with which density a bounce would have gone there."""
+    meets = ~evidence.lamps.is_delta.take(evidence("light.light"))
+    return asked_again(
+        evidence, "light", "pdf", "pdf_bsdf", evidence.sound("light", "wi"), np.flatnonzero(meets)
+    )
+
+
+def weight(evidence):
+    """I7: the weight of light found by sampling it."""
+    settings, rows = evidence.settings, np.flatnonzero(evidence("light.pdf") > 0.0)
+    if not rows.size:
+        return None
+    inputs = {name: (evidence(f"light.{name}")[rows], 0.0) for name in ("pdf", "pdf_bsdf")}
+
+    def value(pdf, pdf_bsdf):
+        return np.ones_like(pdf) if strategy(settings) == "light" else mis(settings, pdf, pdf_bsdf)
+
+    return judged(
+        evidence, "light", rows, evidence("light.w")[rows], value, inputs, "w", absolute=32 * evidence.eps
+    )
+
+
+def throughput(evidence):
+    """The throughput at a light sample is that at its vertex."""
+    right = carried(evidence, "light")
+    rows = np.arange(right.shape[1])
+    return judged(
+        evidence, "light", rows, evidence("light.beta"), lambda right: right, {"right": (right, 0.0)}, "beta"
+    )
+
+
+_PARTS = ("beta", "f", "Le", "cos", "w", "pdf")
+
+
+def term(evidence):
+    """I5: what a light sample brings."""
+    inputs = {name: (evidence(f"light.{name}"), 0.0) for name in _PARTS}
+    seen = evidence("light.visible").astype(float)
+    if evidence.has("light.transmittance"):
+        seen = seen * evidence("light.transmittance")
+    inputs["seen"] = (seen, 0.0)
+
+    def value(beta, f, Le, cos, w, pdf, seen):
+        return np.where(pdf > 0.0, beta * f * Le * cos * w * seen / np.where(pdf > 0.0, pdf, 1.0), 0.0)
+
+    rows = np.arange(evidence.count("light"))
+    return judged(evidence, "light", rows, evidence("light.contribution"), value, inputs, "contribution")
+
+
+def visible(evidence):
+    """I6: whether the light point is seen, by every primitive asked one by one."""
+    could = np.ones(evidence.count("light"), bool)
+    for name in ("f", "Le", "beta"):
+        if evidence.has(f"light.{name}"):
+            could &= (evidence(f"light.{name}") > 0.0).any(axis=0)
+    for name in ("pdf", "w", "cos"):
+        if evidence.has(f"light.{name}"):
+            could &= evidence(f"light.{name}") > 0.0
+    seen = evidence("light.visible").astype(bool)
+    rows = np.flatnonzero(could | seen)
+    if not rows.size:
+        return None
+    p, q = evidence.at_vertex("light", "p")[:, rows], evidence("light.q")[:, rows]
+    source, target = evidence.at_vertex("light", "primitive")[rows], evidence("light.primitive")[rows]
+    blocked, maybe = evidence.brute.between(p, q, source, target, 4.0 * evidence.off_point)
+    seen = seen[rows]
+    bad = (seen & blocked) | (~seen & ~maybe)
+    unsure = maybe & ~blocked
+    unsure |= ~(length(q - p) > 64.0 * evidence.off_point)
+    return Outcome("light", rows, bad & ~unsure, unsure, seen, ~blocked, "visible")
+
+
+_VERTEX = ("hit.p", "hit.n", "hit.wo", "hit.primitive")
+RULES = (
+    Rule(
+        "light-f",
+        "f is that of the surface that is lit",
+        "A light sample is reflected by the material of this vertex, from wi to wo.",
+        "f = f(p, wo, wi)",
+        ("light.f", "light.wi", *_VERTEX),
+        reflected,
+    ),
+    Rule(
+        "light-cos",
+        "The cosine at a light sample",
+        "Each vertex has exactly one cosine, between n and wi.",
+        "cos = |n . wi|",
+        ("light.cos", "light.wi", *_VERTEX),
+        cosine("light"),
+    ),
+    Rule(
+        "light-pdf-bsdf",
+        "The density of bouncing to the light",
+        "The weight takes the density with which this surface's own sampler would go there.",
+        "pdf_bsdf = p(wi | p, wo)",
+        ("light.pdf_bsdf", "light.wi", "light.light", *_VERTEX),
+        density_of_bouncing,
+    ),
+    Rule(
+        "light-visible",
+        "Light points are seen unless something lies between",
+        "A light point is seen if nothing lies strictly between it and the vertex.",
+        "V = 1 if no surface at 0 < t < r",
+        ("light.visible", "light.q", "light.primitive", "hit.p", "hit.primitive"),
+        visible,
+    ),
+    Rule(
+        "light-weight",
+        "Light found by sampling counts once",
+        "Over all ways to find it, the weights of one light path sum to 1.",
+        "w = 1 if bounces that find it are not counted, else MIS(pdf, pdf_bsdf)",
+        ("light.w", "light.pdf", "light.pdf_bsdf"),
+        weight,
+    ),
+    Rule(
+        "light-throughput",
+        "A light sample has the throughput of its vertex",
+        "What lies behind the vertex does not depend on the light sample.",
+        "beta = beta_k",
+        ("light.beta", "hit.beta"),
+        throughput,
+    ),
+    Rule(
+        "light-term",
+        "What a light sample brings",
+        "It brings throughput, f, radiance, cosine and weight, divided by its density, if it is seen.",
+        "contribution = beta f Le cos w V / pdf",
+        ("light.contribution", *(f"light.{name}" for name in _PARTS), "light.visible"),
+        term,
+    ),
+)

@@ -1,0 +1,228 @@
+"""What breaks the laws of bounces and roulette."""
+
+import numpy as np
+
+from tracer.doctor.naming.case import SHARE, Clue, first
+from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials
+from tracer.frame import dot
+
+
+def density(case):
+    """The density of a bounce."""
+    given, wi = given_to(case), case["wi"]
+    cos, right = np.abs(dot(given["n"], wi)), case.right
+    one = np.ones_like(right)
+
+    def masked():
+        g1 = case.evidence.trace.column("bounce", "G1")
+        return False if g1 is None else right / g1[case.rows]
+
+    return first(
+        case,
+        [
+            (
+                "B01",
+                "recorded 1/(2 pi), the density of uniform directions; the sampler declared has cos/pi",
+                one * 0.5 / np.pi,
+            ),
+            (
+                "B01",
+                "recorded cos/pi, the density of cosine-weighted directions; the sampler declared is uniform",
+                cos / np.pi,
+            ),
+            ("B08", "recorded 1/(4 pi): the density over the whole sphere", one * 0.25 / np.pi),
+            (
+                "W02",
+                "recorded = pdf(wo | wi): the density of the opposite way",
+                lambda: exchanged(case.evidence, given, wi, "pdf"),
+            ),
+            (
+                "W04",
+                "recorded is the density asked with world directions as if they were local",
+                lambda: local(case.evidence, given, wi, "pdf"),
+            ),
+            ("S07", "recorded = right / G1: the density of visible normals lacks their masking", masked),
+            (None, "recorded = right x pi", right * np.pi),
+            (None, "recorded = right / pi", right / np.pi),
+            (None, "recorded = right / cos", right / cos),
+            (None, "recorded 1", one),
+        ],
+    )
+
+
+def reflected(case):
+    """f of a bounce."""
+    given, wi, right = given_to(case), case["wi"], case.right
+    cos = np.abs(dot(given["n"], wi))
+    return first(
+        case,
+        [
+            ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
+            (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
+            ("D10", "recorded = right x cos: the cosine is in f already", right * cos),
+            (
+                "B14",
+                "recorded = f(wi, wo): the two directions are exchanged",
+                lambda: exchanged(case.evidence, given, wi, "eval"),
+            ),
+            (
+                "B14",
+                "recorded = f(wi, wi)",
+                lambda: case.evidence.asked(**given | {"wo": wi}, wi=wi, what="eval"),
+            ),
+            (
+                "W04",
+                "recorded is f asked with world directions",
+                lambda: local(case.evidence, given, wi, "eval"),
+            ),
+            ("G09", "light from below the true surface is let through", lambda: leaks(case, given, wi)),
+        ]
+        + materials(case, given, wi),
+    )
+
+
+def throughput(case):
+    """beta after a bounce."""
+    before, f, pdf = case["beta_before"] if case.has("beta_before") else np.nan, case["f"], case["pdf"]
+    cos, right = np.where(case["delta"], 1.0, case["cos"]), case.right
+    q = case.evidence.settings.roulette
+    q = float(q) if q not in ("auto", "off") else 1.0
+    return first(
+        case,
+        [
+            ("B02", "recorded = beta f cos: the density is forgotten", right * pdf),
+            ("B12", "recorded = beta: f cos / pdf is not multiplied", before * np.ones_like(right)),
+            ("B12", "recorded = beta cos / pdf: f is forgotten", before * cos / pdf),
+            ("D10", "recorded = right / cos: the cosine is missing", right / cos),
+            ("D10", "recorded = right x cos: there is one cosine too many", right * cos),
+            ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
+            (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
+            (None, "recorded = right x 2", right * 2.0),
+            (None, "recorded = right / 2", right / 2.0),
+            (None, "recorded = right / q: paid for the roulette here already", right / q),
+            (None, "recorded = right x q", right * q),
+            (None, "recorded = f cos / pdf: what the path carried is forgotten", f * cos / pdf),
+        ],
+    )
+
+
+def on_arrival(case):
+    """beta at the next vertex."""
+    q = case.evidence.settings.roulette
+    q = float(q) if q not in ("auto", "off") else np.nan
+    return first(
+        case,
+        [
+            (None, "recorded = right / q: the roulette is paid for twice", case.right / q),
+            ("A01", "what fills the way takes nothing of the throughput", case.right / case["transmittance"]),
+            (None, "recorded = 1: the throughput starts afresh", np.ones_like(case.right)),
+        ],
+    )
+
+
+def survivors(case):
+    """beta of roulette's survivors."""
+    q, right = case["probability"], case.right
+    return first(
+        case,
+        [
+            ("R01", "recorded = beta: the survivors do not stand in for the dead", right * q),
+            (None, "recorded = beta / q^2: divided twice", right / q),
+            (None, "recorded = beta q: multiplied where it must be divided", right * q * q),
+            (None, "recorded = beta / (1 - q)", right * q / (1.0 - q)),
+        ],
+    )
+
+
+def chance(case):
+    """The probability of surviving."""
+    ends = np.isin(case.recorded, (0.0, 1.0))
+    q = case.recorded
+    if ends.mean() >= SHARE and (q == 0.0).any():
+        depth = int(case.depth[q == 0.0].min())
+        return Clue("R05", f"recorded 0 from depth {depth} on: a cut, which nothing makes up for")
+    if np.ptp(q) < 1e-6 and q.size and q[0] < 0.5 * case.right.min():
+        return Clue(
+            "R06",
+            f"recorded {q[0]:.3g} everywhere, where {case.right.min():.3g} and more is declared: of "
+            f"{1 / q[0]:.0f} paths one goes on",
+        )
+    return None
+
+
+def survival(case):
+    """Who goes on."""
+    return first(
+        case,
+        [
+            (
+                "R03",
+                "who draws less than q dies, who draws more goes on: the test is reversed",
+                1.0 - case.right,
+            )
+        ],
+    )
+
+
+def mirror(case):
+    """Directions of Dirac lobes."""
+    n, wo, wi = case.vertex("n"), case.vertex("wo"), case["wi"]
+    cos_i, cos_t = np.abs(dot(n, wo)), np.abs(dot(n, wi))
+    sin_i, sin_t = np.sqrt(np.maximum(1 - cos_i**2, 0)), np.sqrt(np.maximum(1 - cos_t**2, 0))
+    eta = case.evidence.trace.column("bounce", "eta")
+    if eta is None:
+        return None
+    eta = eta[case.rows].astype(float)
+    with np.errstate(all="ignore"):
+        bent = sin_i / sin_t  # what Snell's law was used with
+    use = np.isfinite(bent) & (sin_i > 0.05)
+    if use.any() and np.mean(np.abs(bent - 1 / eta)[use] < 1e-3 / eta[use]) >= SHARE:
+        inside = np.mean(dot(case.evidence.brute.normals(case.vertex("p"), case.vertex("primitive")), wo) < 0)
+        where = "from inside" if inside >= SHARE else "from both sides"
+        return Clue("S01", f"sin i / sin t is the inverse of the index, {where}: it is not swapped", ("W03",))
+    if np.mean(~np.isfinite(case.right).all(axis=0)) >= SHARE:
+        return Clue("S02", "light is transmitted where all of it is reflected")
+    return None
+
+
+def mirror_share(case):
+    """f of Dirac lobes."""
+    eta = case.evidence.trace.column("bounce", "eta")
+    if eta is None:
+        return None
+    eta = eta[case.rows].astype(float)
+    return first(
+        case,
+        [
+            (
+                "S06",
+                "recorded = right x eta^2: radiance that enters is not scaled by the square of the index",
+                case.right * eta * eta,
+            ),
+            ("S06", "recorded = right / eta^2: scaled twice", case.right / (eta * eta)),
+        ],
+    )
+
+
+def side(case):
+    """Bounces into the surface."""
+    share = case.outcome.wrong.sum() / max((~case.outcome.unsure).sum(), 1)
+    if 0.4 < share < 0.6:
+        return Clue(
+            "B08", f"{share:.0%} of the directions lead into the surface: the whole sphere is sampled"
+        )
+    return None
+
+
+NAMES = {
+    "bounce-pdf": density,
+    "bounce-f": reflected,
+    "throughput": throughput,
+    "throughput-on-arrival": on_arrival,
+    "roulette-weight": survivors,
+    "roulette-probability": chance,
+    "roulette-survival": survival,
+    "bounce-mirror": mirror,
+    "bounce-mirror-f": mirror_share,
+    "bounce-side": side,
+}

@@ -1,0 +1,55 @@
+"""What a BSDF says when it is asked wrongly."""
+
+import numpy as np
+
+from tracer.doctor.naming.case import SHARE
+from tracer.frame import dot
+
+
+def given_to(case):
+    """What the BSDF is asked with at the vertex of each event."""
+    return {name: case.vertex(name) for name in ("p", "n", "wo", "primitive")}
+
+
+def exchanged(evidence, given, wi, what):
+    """What the BSDF says with both directions exchanged."""
+    return evidence.asked(**given | {"wo": wi}, wi=given["wo"], what=what)
+
+
+def local(evidence, given, wi, what):
+    """What the BSDF says of world directions taken for local ones."""
+    material = evidence.scene.bsdf_of.take(given["primitive"])
+    texture = evidence.scene.painted(given["p"], given["primitive"])
+    return getattr(evidence.scene.bsdf, what)(material, given["wo"], wi, texture)
+
+
+def leaks(case, given, wi):
+    """Whether light is let through where shading and true normal disagree about its side."""
+    ng = case.evidence.brute.normals(given["p"], given["primitive"])
+    through = dot(ng, wi) * dot(given["n"], wi) < 0.0
+    return bool(np.mean(through & (case.right == 0.0).all(axis=0)) >= SHARE)
+
+
+def materials(case, given, wi):
+    """Guesses about f of rough and layered surfaces."""
+    ratio = case.recorded / np.where(case.right > 0.0, case.right, np.nan)
+    more = bool(np.nanmin(ratio) > 1.0) if np.isfinite(ratio).any() else False
+    return (
+        [
+            (
+                "S09",
+                "recorded > right everywhere: two lobes are added without sharing the light between them",
+                more,
+            )
+        ]
+        if _layered(case, given)
+        else []
+    )
+
+
+def _layered(case, given):
+    from tracer.bsdf import Plastic, RoughPlastic
+
+    kinds = [type(m) for m in case.evidence.scene.definition.bsdfs.values()]
+    here = np.unique(case.evidence.scene.bsdf_of.take(given["primitive"]))
+    return all(issubclass(kinds[k], (Plastic, RoughPlastic)) for k in here)
