@@ -61,6 +61,7 @@ HEAVY = (
     "vtk",
     "vtkmodules",
     "trimesh",
+    "embreex",
     "trame",
     "moderngl",
     "duckdb",

@@ -45,9 +45,11 @@ class Scene:
     `at` gives the scene for other settings.
     """
 
-    def __init__(self, definition, dtype=np.float32, hemisphere="cosine", light_sampling="solid_angle"):
+    def __init__(
+        self, definition, dtype=np.float32, hemisphere="cosine", light_sampling="solid_angle", accel="bvh"
+    ):
         self.definition, self.dtype = definition, dtype
-        self.hemisphere, self.light_sampling = hemisphere, light_sampling
+        self.hemisphere, self.light_sampling, self.accel = hemisphere, light_sampling, accel
         self.name, self.camera = definition.name, definition.camera
         self.width, self.height = definition.width, definition.height
         self.shapes = tuple(s.shape for s in definition.surfaces)
@@ -70,8 +72,9 @@ class Scene:
 
         TracerError if that precision cannot hold it: where it is too far from the origin for its size.
         """
-        wanted, ready = (settings.dtype, settings.hemisphere, settings.light_sampling), self
-        if wanted != (self.dtype, self.hemisphere, self.light_sampling):
+        wanted = settings.dtype, settings.hemisphere, settings.light_sampling, settings.accel
+        ready = self
+        if wanted != (self.dtype, self.hemisphere, self.light_sampling, self.accel):
             if wanted not in self._others:
                 self._others[wanted] = Scene(self.definition, *wanted)
             ready = self._others[wanted]
@@ -119,6 +122,7 @@ class Scene:
             extent,
             self._faces,
             self.dtype,
+            self.accel,
         )
 
     def _prepare_lights(self):

@@ -62,6 +62,11 @@ class Settings:
         most=4096,
     )
     precision: int = option(32, "bits of the floating point numbers", choices=(32, 64))
+    accel: str = option(
+        "bvh",
+        "who looks for the triangles of large meshes: castray's own tree, or Embree (needs embreex)",
+        choices=("bvh", "embree"),
+    )
     jitter: bool = option(True, "spread samples over the pixel (off: all through its centre)")
     bug: str | None = option(None, "plant a bug of the zoo (`castray bugs` lists them)")
 
@@ -83,6 +88,8 @@ class Settings:
             raise TracerError(f"bug: {self.bug!r} is not the name of a bug")
         self._check_roulette()
         self._check_replicates()
+        if self.accel == "embree" and self.precision != 32:
+            raise TracerError(f"accel: embree works in 32 bits; precision {self.precision} needs accel bvh")
         if self.integrator != "path" and self.strategy != "mis":
             raise TracerError(
                 f"strategy: {self.strategy!r} is for the path integrator; {self.integrator} has only one way"

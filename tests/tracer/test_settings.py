@@ -33,6 +33,8 @@ BAD = [
     ({"light_sampling": "volume"}, "light_sampling", "area"),
     ({"sampler": "sobel"}, "sampler", "independent"),
     ({"precision": 16}, "precision", "64"),
+    ({"accel": "octree"}, "accel", "embree"),
+    ({"accel": "embree", "precision": 64}, "accel", "bvh"),
     ({"jitter": "no"}, "jitter", "no"),
 ]
 

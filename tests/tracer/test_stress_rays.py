@@ -92,7 +92,7 @@ def test_s08_a_room_with_a_hole_is_lit(suite_seed, monkeypatch):
     """The broken twin: one of its twelve walls is not asked."""
     scene = white_room(PLACES[0], "box").at(Settings())
     (mesh,) = scene.arrangement.closest
-    monkeypatch.setattr(mesh, "_through", lambda *a, ask=mesh._through: holed(*ask(*a)))
+    monkeypatch.setattr(mesh, "through", lambda *a, ask=mesh.through: holed(*ask(*a)))
     assert segments(PLACES[0], 32, suite_seed, side=8)["lit"] > 0.0
 
 

@@ -16,6 +16,11 @@ def test_a_link_comes_back_as_it_was_written():
     assert parse(MOMENT.write()) == MOMENT
 
 
+def test_a_link_keeps_who_looks_for_triangles():
+    link = Link("smooth_ball", Settings(accel="embree"), (1, 2, 0, 0))
+    assert "accel=embree" in link.write() and parse(link.write()) == link
+
+
 def test_a_whole_address_is_a_link():
     assert parse("http://127.0.0.1:8123/#" + MOMENT.write()) == MOMENT
     assert is_link("http://127.0.0.1:8123/#" + MOMENT.write())

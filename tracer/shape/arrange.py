@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.shape import room
+from tracer.shape import embree_kernel, room
 from tracer.shape.rays import linear
 from tracer.shape.rectangle import Rectangle
 from tracer.shape.sphere import Sphere
@@ -31,14 +31,16 @@ class Arrangement(NamedTuple):
     harmless: tuple  # numbers of the other shapes that never block
 
 
-def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype):
+def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype, accel):
     """The Arrangement of a scene.
 
     first: number of each shape's first primitive; sealed: (S,) whether nothing goes on behind its front;
     shining: (S,) whether it shines; elsewhere: whether there are lights that are no shapes; others: the
-    Faces of all primitives.
+    Faces of all primitives; accel: who looks for triangles, as in Settings.
     """
     kernels = [shape.kernel(int(k), extent, dtype, others) for shape, k in zip(shapes, first, strict=True)]
+    if accel == "embree":
+        kernels = [embree_kernel.through_embree(kernel) for kernel in kernels]
     # Lamps first: of surfaces at exactly the same distance the first is met.
     order = sorted(range(len(shapes)), key=lambda k: not shining[k])
     sides = room.find(shapes, sealed)

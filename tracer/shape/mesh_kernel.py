@@ -55,7 +55,7 @@ class MeshKernel:
             self._cross(rays, near[some], over_d, limit, starting[some], crossed)
         t, face = np.full(n, np.inf, dtype), np.full(n, -1, np.int32)
         if crossed:
-            self._first(t, face, rays, *(np.concatenate(column) for column in zip(*crossed, strict=True)))
+            self.nearest(t, face, rays, *(np.concatenate(column) for column in zip(*crossed, strict=True)))
             beyond = t > within
             t[beyond], face[beyond] = np.inf, -1
         return t, self.first + face
@@ -65,21 +65,22 @@ class MeshKernel:
         `lanes` among them. starting: which of these start in the box around everything."""
         o, d, over_d = (v.take(lanes, axis=1) for v in (rays.o, rays.d, over_d))
         within = limit.take(lanes)
-        sheared, axis = _sheared(o, d)
+        sheared, axis = sheared_onto_axis(o, d)
         if self.tree.steps:
             leaf, lane = bvh.first_leaves(self.tree, o, over_d, within)
-            met, lane, _ = self._through(rays, lanes, sheared, axis, leaf, lane)
+            met, lane, _ = self.through(rays, lanes, sheared, axis, leaf, lane)
             self._shorten(within, met, lane, o.take(lane, axis=1), d.take(lane, axis=1))
         leaf, lane, starting = bvh.all_leaves(self.tree, o, over_d, within, starting)
         if rays.touched is not None and starting.any():
             begun = np.flatnonzero(starting)
-            self._touching(self.tree.leaves[leaf[begun]], rays, lanes[lane[begun]])
-        met, lane, sums = self._through(rays, lanes, sheared, axis, leaf, lane)
+            self.touching(self.tree.leaves[leaf[begun]], rays, lanes[lane[begun]])
+        met, lane, sums = self.through(rays, lanes, sheared, axis, leaf, lane)
         if met.size:
-            along = d.ravel().take(axis.take(lane) * lanes.size + lane)
-            crossed.append((met, lanes.take(lane), -self.turn * sums * along))
+            crossed.append(
+                (met, lanes.take(lane), self.heading(rays, lanes.take(lane), axis.take(lane), sums))
+            )
 
-    def _through(self, rays, lanes, sheared, axis, leaf, lane):
+    def through(self, rays, lanes, sheared, axis, leaf, lane):
         """Triangles (M,) of leaves (P,) that rays pass through, which of `lanes` (M,), and the sums (M,) of
         the edge functions. lane: (P,) the leaves' rays, counted in `lanes`, as are the columns of sheared
         (5, L) and axis (L,). A ray's own triangle and the one it is aimed at are left out."""
@@ -103,6 +104,11 @@ class MeshKernel:
             there &= rays.target[lanes[lane]] != number
         return met[there], lane[there], sums[there]
 
+    def heading(self, rays, lane, axis, sums):
+        """Above 0 where rays `lane` (M,) go out through the front of triangles, below 0 where they come in.
+        axis: (M,) that they point along most; sums: (M,) of the edge functions."""
+        return -self.turn * sums * rays.d[axis, lane]
+
     def _shorten(self, within, met, lane, o, d):
         """Lower the limits of rays to a little beyond the triangles that they surely meet."""
         n = self.rough_n.take(met, axis=1)
@@ -112,7 +118,7 @@ class MeshKernel:
         beyond = (1.001 * np.abs(height) + slack) / steep
         np.minimum.at(within, lane[sure], beyond[sure])
 
-    def _first(self, t, face, rays, met, lane, heading):
+    def nearest(self, t, face, rays, met, lane, heading):
         """Write the nearest of the triangles `met` into t and face of the rays `lane`."""
         t_met, place = self._distances(met, heading, rays, lane)
         first = np.full(t.size, np.inf)
@@ -141,7 +147,7 @@ class MeshKernel:
         plane[own] = self.plane[source[own] - self.first]
         return plane
 
-    def _touching(self, triangles, rays, lanes):
+    def touching(self, triangles, rays, lanes):
         """Say which rays, starting in leaves' boxes, may touch which of their triangles (L, K)."""
         plane = self._planes(rays, lanes)
         o = rays.o.take(lanes, axis=1)[:, :, None]
@@ -230,7 +236,7 @@ def _normals(corners, ideal):
     return np.where(n.any(axis=0), np.where(side < 0.0, -n, n), ideal)
 
 
-def _sheared(o, d):
+def sheared_onto_axis(o, d):
     """What shears rays onto the axis they point along most, (5, N), and that axis, (N,)."""
     axis = np.argmax(np.abs(d), axis=0)
     sheared = np.empty((5, axis.size), o.dtype)
