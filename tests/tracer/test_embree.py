@@ -10,10 +10,13 @@ from suite import missing, suite_seed
 
 import tracer
 from tracer import Settings, TracerError
+from tracer.doctor import examine
+from tracer.doctor.evidence import Evidence
 from tracer.shape import Mesh, embree_kernel
 from tracer.shape.embree_kernel import EmbreeKernel, through_embree
 from tracer.shape.rays import Rays
 from tracer.shape.start import Faces
+from tracer.trace import gather
 
 N = 4000
 
@@ -132,6 +135,12 @@ def test_a_picture_by_embree_says_so_and_is_made_again_bit_for_bit():
     picture, again = (tracer.render(tracer.load("smooth_ball"), settings) for _ in range(2))
     assert picture.settings.accel == "embree"
     assert (picture.rgb == again.rgb).all() and picture.rgb.mean() > 0.0
+
+
+def test_the_doctor_judges_a_trace_by_embree_without_it():
+    settings = Settings(width=16, height=16, spp=4, accel="embree")
+    assert not examine(gather(tracer.load("smooth_ball"), settings)).findings
+    assert Evidence(gather(tracer.load("smooth_ball"), settings)).scene.accel == "bvh"
 
 
 def test_without_embreex_one_line_says_what_to_install(monkeypatch):

@@ -29,7 +29,7 @@ class Evidence:
     def __init__(self, trace):
         self.trace = replace(trace, settings=replace(trace.settings, bug=None))
         self.settings = self.trace.settings
-        self.scene = trace.scene.at(replace(self.settings, precision=64))
+        self.scene = trace.scene.at(replace(self.settings, precision=64, accel="bvh"))
         self.eps = trace.eps
         self._columns = {}
 

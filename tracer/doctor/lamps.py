@@ -17,7 +17,7 @@ class Lamps:
 
     def __init__(self, scene, settings, brute):
         self.scene, self.settings, self.brute = scene, settings, brute
-        self.by_area = scene.at(replace(settings, precision=64, light_sampling="area"))
+        self.by_area = scene.at(replace(settings, precision=64, light_sampling="area", accel="bvh"))
 
     @cached_property
     def pick(self):
