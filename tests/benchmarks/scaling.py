@@ -115,50 +115,40 @@ def depth(size, say):
 
 def triangles(size, say):
     """Build time and time per path against the number of triangles; the tree against brute force."""
-    asked, rows, first = settings(size, spp=size.mesh_spp), [], None
-    paths = size.mesh_spp * size.side**2
+    asked, meshes, built, works = settings(size, spp=size.mesh_spp), {}, {}, {}
     for level in size.levels:
         mesh = scenes.ball(level)
-        say(f"{mesh.primitives:,} triangles: building")
+        n, meshes[level] = mesh.primitives, mesh
+        say(f"{n:,} triangles: building")
         kernel, began = kernel_seconds(), time.perf_counter()
         scene = Scene(scenes.definition_with(mesh), np.float32)
-        built = time.perf_counter() - began
-        renders = {
-            accel: lambda scene=scene, accel=accel: tracer.render(scene, replace(asked, accel=accel)).seconds
-            for accel in SEARCHES
+        built[n] = time.perf_counter() - began, kernel
+        for accel in SEARCHES:
+            by = replace(asked, accel=accel)
+            works[n, accel] = lambda scene=scene, by=by: tracer.render(scene, by).seconds
+    times = in_turn(works, size.mesh_repeats, say)
+    paths, rows = size.mesh_spp * size.side**2, []
+    for n, (seconds, kernel) in built.items():
+        row = {
+            "triangles": f"{n:,}",
+            "build, s": short(seconds),
+            "kernel ms then": f"{1e3 * kernel:.2f}",
+            "kernel ms": times[n, "bvh"].kernel,
         }
-        of_each = in_turn(renders, size.mesh_repeats, say)
-        first, times = first or of_each, of_each["bvh"]
-        rows.append(
-            {
-                "triangles": f"{mesh.primitives:,}",
-                "build, s": short(built),
-                "kernel ms then": f"{1e3 * kernel:.2f}",
-                "render, s": short(times.median),
-                "kernel ms": times.kernel,
-                "µs per path": short(1e6 * times.median / paths),
-                "of the first": f"{times.median / first['bvh'].median:.2f}",
-                **{
-                    f"{accel}: {what}": value
-                    for accel, t in of_each.items()
-                    if accel != "bvh"
-                    for what, value in (
-                        ("µs per path", short(1e6 * t.median / paths)),
-                        ("of the first", f"{t.median / first[accel].median:.2f}"),
-                    )
-                },
-            }
-        )
-        if level == size.brute:
-            brute = against_every_triangle(scene, mesh, size, say)
+        for accel in SEARCHES:
+            t, first = times[n, accel].median, times[next(iter(built)), accel].median
+            row[f"{accel}: µs per path"] = short(1e6 * t / paths)
+            row[f"{accel}: of the first"] = f"{t / first:.2f}"
+        rows.append(row)
+    brute = against_every_triangle(meshes[size.brute], size, say)
     return f"{table(rows)}\n\n{brute}\n\n{MESHES_ASKED}"
 
 
-def against_every_triangle(scene, mesh, size, say):
-    """How many times as fast the scene's rays at the mesh are as a test of every triangle, in one line."""
+def against_every_triangle(mesh, size, say):
+    """How many times as fast the camera's rays at the mesh are as a test of every triangle, in one line."""
     centre = mesh.vertices.mean(axis=0)
     random = np.random.default_rng(settings(size).seed)
-    o = np.repeat(scene.camera.origin[:, None], size.brute_rays, axis=1).astype(np.float32)
+    o = np.repeat(scenes.box().camera.origin[:, None], size.brute_rays, axis=1).astype(np.float32)
     d = (centre[:, None] + random.normal(scale=0.25, size=o.shape) - o).astype(np.float32)
     d /= np.linalg.norm(d, axis=0)
     nowhere = np.full(size.brute_rays, -1, np.int32)
