@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from tracer.scene_file import SceneWarning, export
     from tracer.scene_file.load import built_in_scenes, load, load_dict
     from tracer.settings import Settings, TracerError
+    from tracer.trace import read_trace, record
 
 __all__ = [
     "SceneWarning",
@@ -39,6 +40,8 @@ __all__ = [
     "load",
     "load_dict",
     "read",
+    "read_trace",
+    "record",
     "render",
     "write",
 ]
@@ -52,6 +55,7 @@ _HOME = {
     "tracer.picture": ("read", "write"),
     "tracer.scene_file": ("SceneWarning", "built_in_scenes", "export", "load", "load_dict"),
     "tracer.settings": ("Settings", "TracerError"),
+    "tracer.trace": ("read_trace", "record"),
 }
 
 

@@ -1,5 +1,6 @@
 """The same picture again: in other waves, on other processes, a pixel alone, in another precision."""
 
+from functools import partial
 from multiprocessing.connection import wait
 
 import numpy as np
@@ -26,8 +27,8 @@ def _in_waves(seed):
     """Pictures with waves of other sizes; the pixels that differ in any bit."""
     settings = _settings(seed)
     usual = tracer.render(loaded("cornell_unit"), settings).rgb
-    job = loaded("cornell_unit").at(settings), settings, RIGHT
-    parts = ([waves.trace(*job, task) for task in waves.tasks(settings, lanes)] for lanes in (700, 5000))
+    job = partial(waves.trace, loaded("cornell_unit").at(settings), settings, RIGHT)
+    parts = ([job(task) for task in waves.tasks(settings, lanes)] for lanes in (700, 5000))
     return {"differ": sum(_differ(usual, results) for results in parts)}
 
 
@@ -35,7 +36,7 @@ def _on_processes(seed):
     """The same on this process and another together."""
     settings = _settings(seed)
     usual = tracer.render(loaded("cornell_unit"), settings).rgb
-    job = loaded("cornell_unit").at(settings), settings, RIGHT
+    job = partial(waves.trace, loaded("cornell_unit").at(settings), settings, RIGHT)
     if not processes.started(2):
         wait(processes.crew(1).lines)  # until the other is there
     return {"differ": _differ(usual, processes.traced(job, waves.tasks(settings, 700), 2))}

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -38,6 +39,16 @@ class Picture:
         """Share of the samples asked for that were not needed."""
         return 1.0 - self.paths / (self.samples.size * self.settings.spp)
 
+    @classmethod
+    def of(cls, sheet, settings, seconds, rays, dropped, complete):
+        """The picture on a Film."""
+        width, height = settings.width, settings.height
+        rgb, variance = (
+            np.ascontiguousarray(a.T).reshape(height, width, 3) for a in (sheet.mean(), sheet.variance())
+        )
+        samples = sheet.samples.reshape(height, width)
+        return cls(rgb, variance, samples, settings, seconds, rays, dropped, complete)
+
 
 def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=None, adaptive="off"):
     """Render `scene`.
@@ -49,54 +60,49 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=N
     spends settings.spp, on average, where that error is (see engine/plan.py). Ctrl-C returns the picture so
     far with complete = False. Raises TracerError.
     """
-    settings = _asked(scene, settings, steps)
-    scene = scene.at(settings)
-    width, height = settings.width, settings.height
-    sheet = film.Film(width * height, settings.parts)
+    settings = asked(scene, settings, steps)
+    pixels = settings.width * settings.height
+    sheet = film.Film(pixels, settings.parts)
+    job = partial(waves.trace, scene.at(settings), settings, steps)
     rounds = plan.rounds(settings, sheet, until_error, adaptive)
     rays = dropped = done = 0
     complete = True
     began = time.perf_counter()
     try:
-        for result in _results((scene, settings, steps), rounds, workers):
+        for result in results(job, rounds, pixels * settings.spp, workers):
             waves.collect(sheet, result)
             rays += result.rays
             dropped += result.dropped
             done += result.task.paths
             if progress:
-                progress(done, width * height * settings.spp)
+                progress(done, pixels * settings.spp)
     except KeyboardInterrupt:
         complete = False
-    seconds = time.perf_counter() - began
-    rgb, variance = (
-        np.ascontiguousarray(a.T).reshape(height, width, 3) for a in (sheet.mean(), sheet.variance())
-    )
-    samples = sheet.samples.reshape(height, width)
-    return Picture(rgb, variance, samples, settings, seconds, rays, dropped, complete)
+    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete)
 
 
-def _asked(scene, settings, steps):
+def asked(scene, settings, steps):
     """The settings at the scene's size; TracerError if they name a bug whose steps were not given."""
     if settings.bug and steps is RIGHT:
         raise TracerError(f"bug: {settings.bug} needs its steps: pass steps=lessons.zoo.planted(settings)")
     return settings.at_size_of(scene)
 
 
-def _results(job, rounds, workers):
-    """Results in order: from this process, then from several once it is clear that the rest is worth it."""
+def results(job, rounds, paths, workers):
+    """What job(task) gives for the tasks of all rounds, in order: by this process, then by several once it is
+    clear that the rest is worth it. paths: of all tasks together."""
     if workers == 1:
         for tasks in rounds:
-            yield from (waves.trace(*job, task) for task in tasks)
+            yield from map(job, tasks)
         return
     from tracer.engine import processes  # where it is used: multiprocessing takes long to import
 
-    _, settings, _ = job
-    left, together = settings.width * settings.height * settings.spp, processes.started(workers)
+    left, together = paths, processes.started(workers)
     for tasks in rounds:
         tasks = iter(tasks)
         while not together and (task := next(tasks, None)) is not None:
             began = time.perf_counter()
-            yield waves.trace(*job, task)
+            yield job(task)
             left -= task.paths
             together = (time.perf_counter() - began) / task.paths * left > processes.WORTH_A_START
         yield from processes.traced(job, tasks, workers) if together else ()
@@ -130,7 +136,7 @@ def inspect(scene, settings, x, y, sample=None, steps=RIGHT):
 
     sample: only this one; the value is then that sample alone. Raises TracerError outside the picture.
     """
-    settings = _asked(scene, settings, steps)
+    settings = asked(scene, settings, steps)
     scene = scene.at(settings)
     if not (0 <= x < settings.width and 0 <= y < settings.height):
         raise TracerError(

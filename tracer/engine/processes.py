@@ -1,8 +1,8 @@
 """Waves on several processes: this one and children beside it, kept from one render to the next.
 
 Children are spawned, not forked: the same on every system. This process goes on tracing while they start and
-while they work, so nothing waits for them. A job (scene, settings, steps) is sent to each child once. Results
-come back in the order of the tasks, because blocks of a pixel are added in order.
+while they work, so nothing waits for them. A job, a function of a task that can be pickled, is sent to each child
+once. Results come back in the order of the tasks, because blocks of a pixel are added in order.
 """
 
 import atexit
@@ -14,7 +14,6 @@ import threading
 from collections import deque
 from multiprocessing.connection import wait
 
-from tracer.engine.waves import trace
 from tracer.settings import TracerError
 
 # Seconds of remaining work, on one core, from which starting children pays.
@@ -39,7 +38,7 @@ def _serve(connection):
             job = pickle.loads(content)
             continue
         try:
-            answer = True, trace(*job, content)
+            answer = True, job(content)
         except Exception as error:
             answer = False, error
         connection.send(answer)
@@ -119,10 +118,10 @@ def dismiss():
 def traced(job, tasks, workers):
     """Results of the tasks, in order, from `workers` processes, this one included.
 
-    job: scene, settings, steps. Raises TracerError if a child dies.
+    job: what gives the result of a task. Raises TracerError if a child dies.
     """
     if workers == 1 or not _free.acquire(blocking=False):  # another thread has the children
-        yield from (trace(*job, task) for task in tasks)
+        yield from map(job, tasks)
         return
     work = _Work(job, tasks, crew(workers - 1))
     try:
@@ -161,7 +160,7 @@ class _Work:
             task = next(self._tasks, None)
             self._collect(0.0)
             if task is not None:
-                self._done[task[0]] = trace(*self._job, task[1])
+                self._done[task[0]] = self._job(task[1])
             elif number not in self._done:
                 if not self.under_way:
                     return

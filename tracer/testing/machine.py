@@ -7,6 +7,8 @@ import tracemalloc
 
 import numpy as np
 
+from tracer.trace.fingerprint import processor
+
 KERNEL = "exp(-sqrt(x)) of 1e6 float32 numbers in NumPy, mean of 24"
 _NUMBERS = 1_000_000
 _TIMES = 24  # long enough to notice who else is using the processor
@@ -15,22 +17,12 @@ _TIMES = 24  # long enough to notice who else is using the processor
 def machine():
     """Processor, its cores, system and versions, by name."""
     return {
-        "processor": _processor(),
+        "processor": processor(),
         "cores": os.cpu_count() or 1,
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
         "numpy": np.__version__,
     }
-
-
-def _processor():
-    """The processor's model name, as the system tells it."""
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as file:
-            names = [line.partition(":")[2].strip() for line in file if line.startswith("model name")]
-    except OSError:
-        names = []
-    return (names or [platform.processor() or platform.machine()])[0]
 
 
 def kernel_seconds():

@@ -1,9 +1,12 @@
 """Traces a picture, or some of its pixels, with every event kept, wave by wave."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from tracer.engine import waves
-from tracer.events import CAMERA, END, HIT, KINDS
+from tracer.engine.memory import keep_freed
+from tracer.events import CAMERA, END, HIT, KINDS, Event
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.recorder import left_out
@@ -22,6 +25,7 @@ def gather(scene, settings, steps=RIGHT, pixels=None):
 
 def parts(scene, settings, steps=RIGHT, pixels=None, lanes=LANES):
     """Traces of about `lanes` paths each, in the order of pixel and sample, that make up the whole."""
+    keep_freed()
     settings = settings.at_size_of(scene)
     scene = scene.at(settings)
     numbers = np.arange(settings.width * settings.height) if pixels is None else np.asarray(pixels)
@@ -35,12 +39,8 @@ def parts(scene, settings, steps=RIGHT, pixels=None, lanes=LANES):
 
 def part(events, scene, settings, wave):
     """Exhaust a loop's events and return the Trace of its wave: lane k is path k."""
-    done = np.zeros(wave.x.size, np.int32)
-    seen = {kind.name: [] for kind in KINDS}
-    for event in events:
-        seen[event.kind.name].append((event, done[event.lane]))
-        done[event.lane] += 1
-    tables = {kind.name: _table(kind, seen[kind.name], scene.dtype) for kind in KINDS}
+    stages = seen(events, wave)
+    tables = {kind.name: table(kind, stages[kind.name], scene.dtype)[0] for kind in KINDS}
     vertices = np.bincount(tables[HIT.name].path, minlength=wave.x.size)
     film, end = tables[CAMERA.name], tables[END.name]  # one of each a path, in its order
     paths = {
@@ -55,20 +55,44 @@ def part(events, scene, settings, wave):
     return Trace(scene, settings, paths, tables, float(np.finfo(scene.dtype).eps))
 
 
-def _table(kind, seen, dtype):
-    """One table of the events (Event, steps) of a kind, sorted by path and step."""
-    if not seen:
+class Stage(NamedTuple):
+    """An event of a wave, with what only the whole of its paths can tell."""
+
+    event: Event
+    step: np.ndarray  # (N,) int32 place in the path
+    previous: np.ndarray  # (N,) int8 number in KINDS of the event before it, -1 for none
+
+
+def seen(events, wave):
+    """Exhaust a loop's events; {name of a kind: Stages in the order in which they came}."""
+    done, last = np.zeros(wave.x.size, np.int32), np.full(wave.x.size, -1, np.int8)
+    stages = {kind.name: [] for kind in KINDS}
+    number = {kind.name: np.int8(k) for k, kind in enumerate(KINDS)}
+    for event in events:
+        step = done.take(event.lane)
+        stages[event.kind.name].append(Stage(event, step, last.take(event.lane)))
+        done[event.lane] = step + 1
+        last[event.lane] = number[event.kind.name]
+    return stages
+
+
+def table(kind, stages, dtype):
+    """The Table of the Stages of a kind, sorted by path and step, and in its order what came before (E,)."""
+    if not stages:
         columns = {f.name: np.empty((*f.shape, 0), dtype) for f in kind.fields if f.carried}
         none = np.empty(0, np.int64)
-        return Table(none, none, none, columns)
-    lane = np.concatenate([event.lane for event, _ in seen])
-    step = np.concatenate([steps for _, steps in seen])
-    depth = np.concatenate([event.depth for event, _ in seen])
-    order = np.lexsort((step, lane))
-    whole = [event.columns | left_out(event, dtype) for event, _ in seen]
+        return Table(none, none, none, columns), np.empty(0, np.int8)
+    lane = np.concatenate([stage.event.lane for stage in stages])
+    narrow = lane.astype(np.uint16) if lane.max(initial=0) < 1 << 16 else lane  # the quicker way to sort
+    order = np.argsort(narrow, kind="stable")  # of one path's events of a kind the earlier came first
+    step, previous = (
+        np.concatenate([getattr(stage, name) for stage in stages]).take(order) for name in ("step", "previous")
+    )
+    depth = np.concatenate([stage.event.depth for stage in stages]).take(order)
+    whole = [stage.event.columns | left_out(stage.event, dtype) for stage in stages]
     columns = {
-        f.name: np.concatenate([columns[f.name] for columns in whole], axis=-1)[..., order]
+        f.name: np.concatenate([columns[f.name] for columns in whole], axis=-1).take(order, axis=-1)
         for f in kind.fields
         if f.carried
     }
-    return Table(lane[order], step[order], depth[order], columns)
+    return Table(lane.take(order), step, depth, columns), previous

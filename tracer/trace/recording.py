@@ -1,0 +1,254 @@
+"""Renders a picture and keeps what happened to its paths in a folder: `castray render --record`.
+
+The picture falls into parts of about the same number of bytes, pixel by pixel; each is traced, written and
+forgotten, so memory does not grow with the picture, and any process may do any part. A part that is there already
+is read instead of traced: that is how a recording that was stopped goes on.
+"""
+
+import os
+import shutil
+import time
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer import film
+from tracer.engine import waves
+from tracer.engine.memory import keep_freed
+from tracer.engine.picture import Picture, asked, results
+from tracer.events import CAMERA, END, END_REASONS, HIT, KINDS
+from tracer.integrator.steps import RIGHT
+from tracer.integrator.wave import Wave
+from tracer.settings import TracerError
+from tracer.trace import columns, folder, parquet, stored_scene
+from tracer.trace.fingerprint import fingerprint
+from tracer.trace.gather import seen, table
+from tracer.trace.trace import Trace
+
+PART_BYTES = 32 << 20  # of events in memory: ten times that is used while a part is traced and written
+BYTES_OF_PATH = 40  # of one row of paths, at most
+SHARE = 0.6  # bytes on disk of one byte of events, at most: measured on all scenes that come with castray
+PILOT = 256  # pixels looked at to learn how long paths are
+INVALID = END_REASONS.index("invalid")
+
+
+class Part(NamedTuple):
+    """Samples of some pixels, which are numbered line by line."""
+
+    number: int
+    pixels: slice
+    sample: int  # first of them
+    samples: int  # of each pixel, in whole blocks of the film but for the last
+
+    @property
+    def paths(self):
+        """Number of paths to trace."""
+        return (self.pixels.stop - self.pixels.start) * self.samples
+
+
+class Kept(NamedTuple):
+    """What a part brings to the film."""
+
+    task: Part
+    blocks: list  # film.Block
+    rays: int
+    dropped: int
+
+
+def record(scene, settings, path, level="paths", progress=None, workers=1, steps=RIGHT):
+    """Render `scene` as tracer.render does, bit for bit, and keep its paths in the folder `path`.
+
+    level: "paths", a row for each, or "events", everything that happened. Where the same recording was begun
+    before, it goes on; what is there is not traced again. progress, workers, steps: as for render; Ctrl-C returns
+    the picture so far with complete = False. Raises TracerError: if the folder has something else in it, if the
+    disk has too little room, if it cannot be written.
+    """
+    if level not in folder.LEVELS:
+        raise TracerError(f"record_level: {level!r} is not known; choose one of {', '.join(folder.LEVELS)}")
+    settings = asked(scene, settings, steps)
+    scene = scene.at(settings)
+    place = _begun(scene, settings, Path(path), level, steps)
+    pieces = list(pieces_of(settings, place.header["lanes"]))
+    sheet = film.Film(settings.width * settings.height, settings.parts)
+    job = partial(keep, scene, settings, steps, place)
+    rays = dropped = done = 0
+    total, complete, began = settings.width * settings.height * settings.spp, True, time.perf_counter()
+    try:
+        for kept in results(job, [pieces], total, workers):
+            for block in kept.blocks:
+                sheet.add(kept.task.pixels, block)
+            rays, dropped, done = rays + kept.rays, dropped + kept.dropped, done + kept.task.paths
+            if progress:
+                progress(done, total)
+    except KeyboardInterrupt:
+        complete = False
+    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete)
+
+
+def _begun(scene, settings, path, level, steps):
+    """The recording's Folder, with its header; TracerError if the disk lacks the room."""
+    description, files = stored_scene.described(scene)
+    of_path = bytes_of_path(scene, settings, steps) if level == "events" else BYTES_OF_PATH
+    lanes = waves.LANES
+    if level == "events":
+        lanes = max(film.BLOCK, min(waves.LANES, int(PART_BYTES / of_path) // film.BLOCK * film.BLOCK))
+    header = {
+        "format": folder.FORMAT,
+        "level": level,
+        "parts": sum(1 for _ in pieces_of(settings, lanes)),
+        "lanes": lanes,
+        "settings": settings.as_dict(),
+        "scene": {"name": scene.name, "description": description, "files": sorted(files)},
+        "fingerprint": fingerprint(),
+        "names": columns.names_of(scene),
+    }
+    share = SHARE if level == "events" else 1.0
+    needed = of_path * share * settings.width * settings.height * settings.spp
+    needed += sum(file.stat().st_size for file in files.values())
+    _check_room(path, needed)
+
+    def put(there):
+        folder.remove_unfinished(there)
+        stored_scene.keep(there, description, files)
+
+    return folder.begin(path, header, put)
+
+
+def _check_room(path, needed):
+    """TracerError if so many bytes, less those that are there, do not fit on the disk."""
+    near = next(p for p in (path, *path.absolute().parents) if p.exists())
+    there = sum(file.stat().st_size for file in path.rglob("*.parquet")) if path.is_dir() else 0
+    free = shutil.disk_usage(near).free
+    if needed - there > free:
+        raise TracerError(
+            f"{path}: the recording takes about {needed / 1e9:.3g} GB and the disk has {free / 1e9:.3g} GB free; "
+            "ask for fewer --spp, a smaller --size, or --record-level paths"
+        )
+
+
+def bytes_of_path(scene, settings, steps=RIGHT):
+    """About how many bytes the events of one path are, as columns in memory."""
+    numbers = np.arange(settings.width * settings.height)
+    numbers = np.unique(np.linspace(0, numbers.size - 1, min(PILOT, numbers.size)).astype(np.int64))
+    samples = min(settings.spp, 4)
+    piece = Part(0, slice(0, numbers.size), 0, samples)
+    wave = _wave(numbers, piece, settings, steps)
+    size = 0
+    for event in waves.events(scene, settings, wave):
+        row = sum(c.itemsize * (c.size // max(event.lane.size, 1)) for c in event.columns.values())
+        row += sum(np.dtype(kind).itemsize for kind in columns.OWN_TYPES.values())
+        if event.kind.name in columns.AT_VERTEX:
+            row += 12 * np.dtype(scene.dtype).itemsize + 8
+        size += row * event.lane.size
+    return size / wave.x.size
+
+
+def pieces_of(settings, lanes):
+    """The parts of a recording of about `lanes` paths each, in the order of pixel and sample."""
+    pixels, samples = settings.width * settings.height, settings.spp
+    if samples > lanes:
+        samples = max(film.BLOCK, lanes // film.BLOCK * film.BLOCK)
+    step, number = max(1, lanes // samples), 0
+    for start in range(0, pixels, step):
+        for sample in range(0, settings.spp, samples):
+            some = min(samples, settings.spp - sample)
+            yield Part(number, slice(start, min(start + step, pixels)), sample, some)
+            number += 1
+
+
+def keep(scene, settings, steps, place, piece):
+    """Trace a part and write it, or read it if it is there; what it brings to the film, a Kept."""
+    keep_freed()
+    if place.part(piece.number).is_dir():
+        return _read(place, settings, piece)
+    wave = _wave(np.arange(piece.pixels.start, piece.pixels.stop), piece, settings, steps)
+    number = wave.y.astype(np.int64) * settings.width + wave.x
+    number = number * settings.spp + wave.sample
+    events = waves.events(scene, settings, wave)
+    tables = _all(events, scene, settings, wave, number) if place.level == "events" else _paths(events, wave, number)
+    _write(place, piece, tables, wave.rays)
+    return _kept(piece, settings, wave.radiance, wave.rays, wave.dropped)
+
+
+def _wave(numbers, piece, settings, steps):
+    pixel = np.repeat(numbers, piece.samples)
+    sample = np.tile(np.arange(piece.sample, piece.sample + piece.samples), numbers.size)
+    return Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
+
+
+def _kept(piece, settings, radiance, rays, dropped):
+    """Samples (3, N) folded as the film wants them."""
+    of_pixels = radiance.reshape(3, -1, piece.samples)
+    blocks = [
+        film.block(of_pixels[:, :, s : s + film.BLOCK], piece.sample + s, settings.parts)
+        for s in range(0, piece.samples, film.BLOCK)
+    ]
+    return Kept(piece, blocks, rays, dropped)
+
+
+def _paths(events, wave, number):
+    """One row a path, and nothing else looked at."""
+    vertices, reason = np.zeros(wave.x.size, np.int32), np.zeros(wave.x.size, np.int8)
+    place = np.zeros((2, wave.x.size), wave.settings.dtype)
+    for event in events:
+        if event.kind is HIT:
+            vertices[event.lane] += 1
+        elif event.kind is CAMERA:
+            place = event.columns["film"]
+        elif event.kind is END:
+            reason[event.lane] = event.columns["reason"]
+    paths = {"x": wave.x, "y": wave.y, "sample": wave.sample, "film": place, "radiance": wave.radiance}
+    return {"paths": columns.of_paths(paths | {"vertices": vertices, "end": reason}, number)}
+
+
+def _all(events, scene, settings, wave, number):
+    """Every event, by kind, and the paths."""
+    stages = seen(events, wave)
+    found = {kind.name: table(kind, stages.pop(kind.name), scene.dtype) for kind in KINDS}
+    end = found[END.name][0]
+    paths = {
+        "x": wave.x,
+        "y": wave.y,
+        "sample": wave.sample,
+        "film": found[CAMERA.name][0]["film"],
+        "radiance": end["radiance"],
+        "end": end["reason"],
+        "vertices": np.bincount(found[HIT.name][0].path, minlength=wave.x.size),
+    }
+    tables = {name: one for name, (one, _) in found.items()}
+    trace = Trace(scene, settings, paths, tables, float(np.finfo(scene.dtype).eps))
+    of_kinds = {kind.name: columns.of_events(kind, trace, found[kind.name][1], number) for kind in KINDS}
+    return {"paths": columns.of_paths(paths, number)} | of_kinds
+
+
+def _write(place, piece, tables, rays):
+    """Put a part into its folder, whole or not at all."""
+    part = place.part(piece.number)
+    beside = part.with_name(f"{part.name}.{os.getpid()}{folder.PARTIAL}")
+    try:
+        beside.mkdir()
+        for name, flat in tables.items():
+            file = beside / f"{name}.parquet"
+            parquet.write(file, flat, **({"rays": rays} if name == "paths" else {}))
+            folder.flush(file)
+        folder.flush(beside)
+        beside.rename(part)
+        folder.flush(place.path)
+    except (OSError, TracerError) as error:
+        shutil.rmtree(beside, ignore_errors=True)
+        said = error if isinstance(error, TracerError) else f"{part}: {error.strerror or error}"
+        raise TracerError(f"{said} (the parts that are done are kept)") from None
+
+
+def _read(place, settings, piece):
+    """What a part that is there brings to the film."""
+    file = place.file(piece.number, "paths")
+    folder.check_file(file)
+    there = parquet.read([file], ["radiance_r", "radiance_g", "radiance_b", "reason"])
+    radiance = np.stack([there[f"radiance_{c}"] for c in "rgb"])
+    if radiance.shape[1] != piece.paths:
+        raise TracerError(f"{file}: has {radiance.shape[1]} paths where {piece.paths} belong")
+    dropped = int(np.count_nonzero(there["reason"] == INVALID))
+    return _kept(piece, settings, radiance, int(parquet.notes(file)["rays"]), dropped)
