@@ -1,8 +1,8 @@
 """Waves on several processes: this one and children beside it, kept from one render to the next.
 
 Children are spawned, not forked: the same on every system. This process goes on tracing while they start and
-while they work, so nothing waits for them. A job, a function of a task that can be pickled, is sent to each child
-once. Results come back in the order of the tasks, because blocks of a pixel are added in order.
+while they work, so nothing waits for them. A job, a function of a task that can be pickled, is sent to each
+child once. Results come back in the order of the tasks, because blocks of a pixel are added in order.
 """
 
 import atexit

@@ -1,6 +1,6 @@
 """Recordings: what happened to many paths, in columns.
 
-`trace` has their form in memory, `gather` makes them; `recording` keeps them in a folder, `reading` reads that.
+`trace` has their form in memory, `gather` makes them; `recording` keeps them in a folder, `reading` reads it.
 """
 
 from tracer.trace.gather import gather, parts

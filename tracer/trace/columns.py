@@ -1,13 +1,14 @@
 """Between the tables of a Trace and the flat columns of a Parquet file; both follow from events.py.
 
-A vector `p` is three columns p_x, p_y, p_z, a colour `beta` beta_r, beta_g, beta_b. Every event says whose it is:
-pixel x, y and sample, path (number of the path: pixel * spp + sample), step, depth and the kind of event before
-it. Events at a vertex carry what is known of that vertex, so that `dot(n, wi)` needs no second table.
+A vector `p` is three columns p_x, p_y, p_z, a colour `beta` beta_r, beta_g, beta_b. Every event says whose it
+is: pixel x, y and sample, path (its number: pixel * spp + sample), step, depth and the kind of event before.
+Events at a vertex carry what is known of that vertex, so that `dot(n, wi)` needs no second table.
 """
 
 import numpy as np
 
 from tracer.events import BOUNCE, END_REASONS, HIT, KINDS, LIGHT, LOBES, ROULETTE, TECHNIQUES
+from tracer.trace.gather import type_of
 
 OWN = ("path", "x", "y", "sample", "step", "depth", "previous")  # what every event has
 OWN_TYPES = dict(zip(OWN, ("int64", "uint16", "uint16", "uint32", "int32", "int32", "int8"), strict=True))
@@ -101,21 +102,30 @@ def of_events(kind, trace, previous, number):
     derived = blockers(trace) if kind is LIGHT else {}
     for field in stored(kind):
         column = derived[field.name] if field.name in derived else trace.column(kind.name, field.name)
-        columns |= flat(field.name, column, axes_of(field))
+        columns |= flat(field.name, _typed(column, field, trace), axes_of(field))
     if kind.name in AT_VERTEX:
         row = trace.hit_of(kind.name)
         for field in carried_along(kind):
             column = trace.column(HIT.name, field.name).take(row, axis=-1)
-            columns |= flat(field.name, column, axes_of(field))
+            columns |= flat(field.name, _typed(column, field, trace), axes_of(field))
     return columns
+
+
+def _typed(column, field, trace):
+    return column.astype(type_of(field, trace.scene.dtype), copy=False)
 
 
 def blockers(trace):
     """What blocks each light sample, as the derived fields say, asked only where something may."""
     table, row = trace.tables[LIGHT.name], trace.hit_of(LIGHT.name)
     size = table.path.size
-    found = {"blocker": np.full(size, -1, np.int32), "blocker_distance": np.full(size, np.inf, trace.scene.dtype)}
-    asked = np.flatnonzero(~table["visible"] & (table["f"].max(axis=0) > 0.0) & (table["Le"].max(axis=0) > 0.0))
+    found = {
+        "blocker": np.full(size, -1, np.int32),
+        "blocker_distance": np.full(size, np.inf, trace.scene.dtype),
+    }
+    asked = np.flatnonzero(
+        ~table["visible"] & (table["f"].max(axis=0) > 0.0) & (table["Le"].max(axis=0) > 0.0)
+    )
     if asked.size:
         names = ("p", "ng", "primitive")
         hits = {name: trace.tables[HIT.name][name].take(row[asked], axis=-1) for name in names}

@@ -1,7 +1,7 @@
 """What the bits of a path depend on beside scene and settings: processor, NumPy, castray.
 
-Between kinds of processors and versions of NumPy sin, cos, exp, log and power differ in the last bit, so a path
-is promised to be the same bit for bit under one fingerprint only.
+Between kinds of processors and versions of NumPy sin, cos, exp, log and power differ in the last bit, so a
+path is promised to be the same bit for bit under one fingerprint only.
 """
 
 import platform
@@ -43,4 +43,8 @@ def castray_version():
 def differences(recorded):
     """What of a recorded fingerprint is different here, as words; empty if nothing is."""
     here = fingerprint()
-    return [f"{what} {recorded.get(what)!s} there, {here[what]} here" for what in here if recorded.get(what) != here[what]]
+    return [
+        f"{what} {recorded.get(what)!s} there, {here[what]} here"
+        for what in here
+        if recorded.get(what) != here[what]
+    ]

@@ -79,7 +79,9 @@ def opened(path):
     path = Path(path)
     if not path.is_dir():
         what = "is a file" if path.exists() else "is not there"
-        raise TracerError(f"{path}: {what}; a recording is a folder, made by castray render SCENE --record DIR")
+        raise TracerError(
+            f"{path}: {what}; a recording is a folder, made by castray render SCENE --record DIR"
+        )
     file = path / HEADER
     try:
         if file.stat().st_size > MOST_HEADER:
@@ -176,7 +178,9 @@ def _same(folder, header):
     there = folder.header
     for name in ("level", "settings", "scene", "fingerprint", "names"):
         if there[name] != (asked := json.loads(json.dumps(header[name]))):
-            raise TracerError(f"{folder.path}: {_difference(name, there[name], asked)}; choose another folder")
+            raise TracerError(
+                f"{folder.path}: {_difference(name, there[name], asked)}; choose another folder"
+            )
     remove_unfinished(folder.path)
     return folder
 
@@ -188,7 +192,9 @@ def _difference(name, there, asked):
     keys = [key for key in {**there, **asked} if there.get(key) != asked.get(key)]
     if name == "scene":
         return f"holds a recording of another scene or another state of it ({there.get('name')})"
-    return f"holds a recording with {name} {keys[0]} {there.get(keys[0])!s:.60}, not {asked.get(keys[0])!s:.60}"
+    return (
+        f"holds a recording with {name} {keys[0]} {there.get(keys[0])!s:.60}, not {asked.get(keys[0])!s:.60}"
+    )
 
 
 def remove_unfinished(path):

@@ -12,6 +12,7 @@ from tracer.integrator.wave import Wave
 from tracer.recorder import left_out
 from tracer.trace.trace import Table, Trace, join
 
+TABLES = ("index", "shape", "bsdf", "light")  # domains of numbers of things
 LANES = 1 << 14  # paths of one part: about 16 MB of events
 
 
@@ -76,17 +77,25 @@ def seen(events, wave):
     return stages
 
 
+def type_of(field, dtype):
+    """The NumPy type of a Field's column where paths are of type dtype."""
+    return {"flag": np.bool_, "choice": np.int8}.get(
+        field.domain, np.int32 if field.domain in TABLES else dtype
+    )
+
+
 def table(kind, stages, dtype):
     """The Table of the Stages of a kind, sorted by path and step, and in its order what came before (E,)."""
     if not stages:
-        columns = {f.name: np.empty((*f.shape, 0), dtype) for f in kind.fields if f.carried}
+        columns = {f.name: np.empty((*f.shape, 0), type_of(f, dtype)) for f in kind.fields if f.carried}
         none = np.empty(0, np.int64)
         return Table(none, none, none, columns), np.empty(0, np.int8)
     lane = np.concatenate([stage.event.lane for stage in stages])
     narrow = lane.astype(np.uint16) if lane.max(initial=0) < 1 << 16 else lane  # the quicker way to sort
     order = np.argsort(narrow, kind="stable")  # of one path's events of a kind the earlier came first
     step, previous = (
-        np.concatenate([getattr(stage, name) for stage in stages]).take(order) for name in ("step", "previous")
+        np.concatenate([getattr(stage, name) for stage in stages]).take(order)
+        for name in ("step", "previous")
     )
     depth = np.concatenate([stage.event.depth for stage in stages]).take(order)
     whole = [stage.event.columns | left_out(stage.event, dtype) for stage in stages]

@@ -5,9 +5,10 @@ from functools import cache
 
 from tracer.settings import TracerError
 
-# Measured on cornell_unit (tests/benchmarks/): of what costs little time this needs the fewest bytes. Dictionaries
-# pay for columns with few values only; looking for larger ones takes longer than what they save.
-OPTIONS = "FORMAT parquet, PARQUET_VERSION v2, COMPRESSION zstd, COMPRESSION_LEVEL 1, DICTIONARY_SIZE_LIMIT 2048"
+# Measured on the columns of cornell_unit: SMALL needs the fewest bytes of what costs little time, QUICK the
+# least time. Dictionaries pay for columns of few values; to look for larger ones takes longer than they save.
+SMALL = "PARQUET_VERSION v2, COMPRESSION zstd, COMPRESSION_LEVEL 1, DICTIONARY_SIZE_LIMIT 2048"
+QUICK = "PARQUET_VERSION v2, COMPRESSION uncompressed, DICTIONARY_SIZE_LIMIT 512"
 MEMORY = "400MB"  # a row group in the making is the most that is held
 
 
@@ -16,17 +17,21 @@ def connection():
     """This process's DuckDB, in memory, on one thread."""
     import duckdb
 
-    return duckdb.connect(config={"threads": 1, "memory_limit": MEMORY, "autoinstall_known_extensions": False})
+    return duckdb.connect(
+        config={"threads": 1, "memory_limit": MEMORY, "autoinstall_known_extensions": False}
+    )
 
 
-def write(file, columns, **notes):
+def write(file, columns, options=SMALL, **notes):
     """Write {name: (E,)} to a file; notes: words kept in its footer. Raises TracerError."""
     more = ", ".join(f"{name}: {literal(str(value))}" for name, value in notes.items())
     metadata = f", KV_METADATA {{{more}}}" if notes else ""
     with explained(file):
         connection().register("columns_to_write", columns)
         try:
-            connection().execute(f"COPY columns_to_write TO {literal(file)} ({OPTIONS}{metadata})")
+            connection().execute(
+                f"COPY columns_to_write TO {literal(file)} (FORMAT parquet, {options}{metadata})"
+            )
         finally:
             connection().unregister("columns_to_write")
 
@@ -41,7 +46,11 @@ def read(files, columns):
 def notes(file):
     """The words kept in a file's footer."""
     with explained(file):
-        rows = connection().execute(f"SELECT key, value FROM parquet_kv_metadata({literal(pattern(file))})").fetchall()
+        rows = (
+            connection()
+            .execute(f"SELECT key, value FROM parquet_kv_metadata({literal(pattern(file))})")
+            .fetchall()
+        )
     return {bytes(key).decode(): bytes(value).decode() for key, value in rows}
 
 

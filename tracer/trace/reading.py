@@ -7,7 +7,19 @@ from tracer.settings import TracerError
 from tracer.trace import columns, folder, parquet, stored_scene
 from tracer.trace.trace import Table, Trace, join
 
-_PATHS = ("path", "x", "y", "sample", "film_x", "film_y", "radiance_r", "radiance_g", "radiance_b", "vertices", "reason")
+_PATHS = (
+    "path",
+    "x",
+    "y",
+    "sample",
+    "film_x",
+    "film_y",
+    "radiance_r",
+    "radiance_g",
+    "radiance_b",
+    "vertices",
+    "reason",
+)
 
 
 def read_trace(path, scene=None):
@@ -35,7 +47,9 @@ def _check_names(place, scene):
     there, here = place.header["names"], columns.names_of(scene)
     for what, names in here.items():
         if there.get(what) != names:
-            raise TracerError(f"{place.path}: the names of each {what} are not those of the scene {scene.name}")
+            raise TracerError(
+                f"{place.path}: names of each {what} are not those of the scene {scene.name}"
+            )
 
 
 def _part(place, number, scene, settings):

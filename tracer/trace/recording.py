@@ -1,8 +1,8 @@
 """Renders a picture and keeps what happened to its paths in a folder: `castray render --record`.
 
 The picture falls into parts of about the same number of bytes, pixel by pixel; each is traced, written and
-forgotten, so memory does not grow with the picture, and any process may do any part. A part that is there already
-is read instead of traced: that is how a recording that was stopped goes on.
+forgotten, so memory does not grow with the picture, and any process may do any part. A part that is there
+already is read instead of traced: that is how a recording that was stopped goes on.
 """
 
 import os
@@ -18,7 +18,7 @@ from tracer import film
 from tracer.engine import waves
 from tracer.engine.memory import keep_freed
 from tracer.engine.picture import Picture, asked, results
-from tracer.events import CAMERA, END, END_REASONS, HIT, KINDS
+from tracer.events import CAMERA, END, END_REASONS, ESCAPE, HIT, KINDS
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.settings import TracerError
@@ -28,8 +28,9 @@ from tracer.trace.gather import seen, table
 from tracer.trace.trace import Trace
 
 PART_BYTES = 32 << 20  # of events in memory: ten times that is used while a part is traced and written
-BYTES_OF_PATH = 40  # of one row of paths, at most
-SHARE = 0.6  # bytes on disk of one byte of events, at most: measured on all scenes that come with castray
+PATHS_IN_PART = 1 << 18  # at level "paths": few enough to be lost, enough that flushing a part costs little
+BYTES_OF_PATH = 40  # of one row of paths on disk, at most
+SHARE = 0.45  # bytes on disk of one byte of events, at most: measured on all scenes that come with castray
 PILOT = 256  # pixels looked at to learn how long paths are
 INVALID = END_REASONS.index("invalid")
 
@@ -52,7 +53,7 @@ class Kept(NamedTuple):
     """What a part brings to the film."""
 
     task: Part
-    blocks: list  # film.Block
+    blocks: list  # (slice of pixels, film.Block), a pixel's in order
     rays: int
     dropped: int
 
@@ -60,25 +61,25 @@ class Kept(NamedTuple):
 def record(scene, settings, path, level="paths", progress=None, workers=1, steps=RIGHT):
     """Render `scene` as tracer.render does, bit for bit, and keep its paths in the folder `path`.
 
-    level: "paths", a row for each, or "events", everything that happened. Where the same recording was begun
-    before, it goes on; what is there is not traced again. progress, workers, steps: as for render; Ctrl-C returns
-    the picture so far with complete = False. Raises TracerError: if the folder has something else in it, if the
-    disk has too little room, if it cannot be written.
+    level: "paths", a row for each, or "events", everything that happened. Where the same recording was
+    begun before, it goes on: what is there is not traced again. progress, workers, steps: as for render; Ctrl-C
+    returns the picture so far with complete = False. Raises TracerError: if the folder has something else in
+    it, if the disk has too little room, if it cannot be written.
     """
     if level not in folder.LEVELS:
         raise TracerError(f"record_level: {level!r} is not known; choose one of {', '.join(folder.LEVELS)}")
     settings = asked(scene, settings, steps)
     scene = scene.at(settings)
     place = _begun(scene, settings, Path(path), level, steps)
-    pieces = list(pieces_of(settings, place.header["lanes"]))
+    parts = list(parts_of(settings, place.header["lanes"]))
     sheet = film.Film(settings.width * settings.height, settings.parts)
     job = partial(keep, scene, settings, steps, place)
     rays = dropped = done = 0
     total, complete, began = settings.width * settings.height * settings.spp, True, time.perf_counter()
     try:
-        for kept in results(job, [pieces], total, workers):
-            for block in kept.blocks:
-                sheet.add(kept.task.pixels, block)
+        for kept in results(job, [parts], total, workers):
+            for pixels, block in kept.blocks:
+                sheet.add(pixels, block)
             rays, dropped, done = rays + kept.rays, dropped + kept.dropped, done + kept.task.paths
             if progress:
                 progress(done, total)
@@ -91,13 +92,13 @@ def _begun(scene, settings, path, level, steps):
     """The recording's Folder, with its header; TracerError if the disk lacks the room."""
     description, files = stored_scene.described(scene)
     of_path = bytes_of_path(scene, settings, steps) if level == "events" else BYTES_OF_PATH
-    lanes = waves.LANES
+    lanes = PATHS_IN_PART
     if level == "events":
         lanes = max(film.BLOCK, min(waves.LANES, int(PART_BYTES / of_path) // film.BLOCK * film.BLOCK))
     header = {
         "format": folder.FORMAT,
         "level": level,
-        "parts": sum(1 for _ in pieces_of(settings, lanes)),
+        "parts": sum(1 for _ in parts_of(settings, lanes)),
         "lanes": lanes,
         "settings": settings.as_dict(),
         "scene": {"name": scene.name, "description": description, "files": sorted(files)},
@@ -123,7 +124,7 @@ def _check_room(path, needed):
     free = shutil.disk_usage(near).free
     if needed - there > free:
         raise TracerError(
-            f"{path}: the recording takes about {needed / 1e9:.3g} GB and the disk has {free / 1e9:.3g} GB free; "
+            f"{path}: takes about {needed / 1e9:.3g} GB and the disk has {free / 1e9:.3g} GB free; "
             "ask for fewer --spp, a smaller --size, or --record-level paths"
         )
 
@@ -133,8 +134,8 @@ def bytes_of_path(scene, settings, steps=RIGHT):
     numbers = np.arange(settings.width * settings.height)
     numbers = np.unique(np.linspace(0, numbers.size - 1, min(PILOT, numbers.size)).astype(np.int64))
     samples = min(settings.spp, 4)
-    piece = Part(0, slice(0, numbers.size), 0, samples)
-    wave = _wave(numbers, piece, settings, steps)
+    part = Part(0, slice(0, numbers.size), 0, samples)
+    wave = _wave(numbers, part, settings, steps)
     size = 0
     for event in waves.events(scene, settings, wave):
         row = sum(c.itemsize * (c.size // max(event.lane.size, 1)) for c in event.columns.values())
@@ -145,7 +146,7 @@ def bytes_of_path(scene, settings, steps=RIGHT):
     return size / wave.x.size
 
 
-def pieces_of(settings, lanes):
+def parts_of(settings, lanes):
     """The parts of a recording of about `lanes` paths each, in the order of pixel and sample."""
     pixels, samples = settings.width * settings.height, settings.spp
     if samples > lanes:
@@ -158,49 +159,60 @@ def pieces_of(settings, lanes):
             number += 1
 
 
-def keep(scene, settings, steps, place, piece):
+def keep(scene, settings, steps, place, part):
     """Trace a part and write it, or read it if it is there; what it brings to the film, a Kept."""
     keep_freed()
-    if place.part(piece.number).is_dir():
-        return _read(place, settings, piece)
-    wave = _wave(np.arange(piece.pixels.start, piece.pixels.stop), piece, settings, steps)
-    number = wave.y.astype(np.int64) * settings.width + wave.x
-    number = number * settings.spp + wave.sample
-    events = waves.events(scene, settings, wave)
-    tables = _all(events, scene, settings, wave, number) if place.level == "events" else _paths(events, wave, number)
-    _write(place, piece, tables, wave.rays)
-    return _kept(piece, settings, wave.radiance, wave.rays, wave.dropped)
+    if place.part(part.number).is_dir():
+        return _read(place, settings, part)
+    found, blocks, rays, dropped = [], [], 0, 0
+    step = max(1, waves.LANES // part.samples)
+    for start in range(part.pixels.start, part.pixels.stop, step):
+        pixels = slice(start, min(start + step, part.pixels.stop))
+        wave = _wave(np.arange(pixels.start, pixels.stop), part, settings, steps)
+        number = (wave.y.astype(np.int64) * settings.width + wave.x) * settings.spp + wave.sample
+        events = waves.events(scene, settings, wave)
+        if place.level == "events":
+            found.append(_all(events, scene, settings, wave, number))
+        else:
+            found.append({"paths": columns.of_paths(_paths(events, wave), number)})
+        blocks += _folded(pixels, part, settings, wave.radiance)
+        rays, dropped = rays + wave.rays, dropped + wave.dropped
+    _write(place, part, found, rays)
+    return Kept(part, blocks, rays, dropped)
 
 
-def _wave(numbers, piece, settings, steps):
-    pixel = np.repeat(numbers, piece.samples)
-    sample = np.tile(np.arange(piece.sample, piece.sample + piece.samples), numbers.size)
+def _wave(numbers, part, settings, steps):
+    """The part's samples of some of its pixels (P,)."""
+    pixel = np.repeat(numbers, part.samples)
+    sample = np.tile(np.arange(part.sample, part.sample + part.samples), numbers.size)
     return Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
 
 
-def _kept(piece, settings, radiance, rays, dropped):
-    """Samples (3, N) folded as the film wants them."""
-    of_pixels = radiance.reshape(3, -1, piece.samples)
-    blocks = [
-        film.block(of_pixels[:, :, s : s + film.BLOCK], piece.sample + s, settings.parts)
-        for s in range(0, piece.samples, film.BLOCK)
+def _folded(pixels, part, settings, radiance):
+    """Samples (3, N) of a slice of pixels as the film wants them."""
+    of_pixels = radiance.reshape(3, -1, part.samples)
+    return [
+        (pixels, film.block(of_pixels[:, :, s : s + film.BLOCK], part.sample + s, settings.parts))
+        for s in range(0, part.samples, film.BLOCK)
     ]
-    return Kept(piece, blocks, rays, dropped)
 
 
-def _paths(events, wave, number):
-    """One row a path, and nothing else looked at."""
-    vertices, reason = np.zeros(wave.x.size, np.int32), np.zeros(wave.x.size, np.int8)
-    place = np.zeros((2, wave.x.size), wave.settings.dtype)
+def _paths(events, wave):
+    """One row a path. Only how paths end is looked at: it tells how many vertices there were."""
+    depth, escaped = np.full(wave.x.size, -1, np.int32), np.zeros(wave.x.size, np.int32)
+    reason = np.zeros(wave.x.size, np.int8)
+    place = None
     for event in events:
-        if event.kind is HIT:
-            vertices[event.lane] += 1
+        if event.kind is END:
+            depth[event.lane] = event.depth
+            reason[event.lane] = event.columns["reason"]
+        elif event.kind is ESCAPE:
+            escaped[event.lane] = 1
         elif event.kind is CAMERA:
             place = event.columns["film"]
-        elif event.kind is END:
-            reason[event.lane] = event.columns["reason"]
-    paths = {"x": wave.x, "y": wave.y, "sample": wave.sample, "film": place, "radiance": wave.radiance}
-    return {"paths": columns.of_paths(paths | {"vertices": vertices, "end": reason}, number)}
+    vertices = depth + 1 - escaped if wave.settings.max_depth else np.zeros_like(depth)
+    own = {"x": wave.x, "y": wave.y, "sample": wave.sample, "film": place, "radiance": wave.radiance}
+    return own | {"vertices": vertices, "end": reason}
 
 
 def _all(events, scene, settings, wave, number):
@@ -223,32 +235,39 @@ def _all(events, scene, settings, wave, number):
     return {"paths": columns.of_paths(paths, number)} | of_kinds
 
 
-def _write(place, piece, tables, rays):
-    """Put a part into its folder, whole or not at all."""
-    part = place.part(piece.number)
-    beside = part.with_name(f"{part.name}.{os.getpid()}{folder.PARTIAL}")
+def _write(place, part, found, rays):
+    """Put a part into its folder, whole or not at all. found: of each of its waves {table: flat columns}."""
+    goal = place.part(part.number)
+    beside = goal.with_name(f"{goal.name}.{os.getpid()}{folder.PARTIAL}")
     try:
         beside.mkdir()
-        for name, flat in tables.items():
+        for name in found[0]:
+            flat = found[0][name]
+            if len(found) > 1:
+                flat = {column: np.concatenate([one[name][column] for one in found]) for column in flat}
             file = beside / f"{name}.parquet"
-            parquet.write(file, flat, **({"rays": rays} if name == "paths" else {}))
+            if name == "paths":
+                parquet.write(file, flat, parquet.QUICK, rays=rays)
+            else:
+                parquet.write(file, flat, parquet.SMALL)
             folder.flush(file)
         folder.flush(beside)
-        beside.rename(part)
+        beside.rename(goal)
         folder.flush(place.path)
     except (OSError, TracerError) as error:
         shutil.rmtree(beside, ignore_errors=True)
-        said = error if isinstance(error, TracerError) else f"{part}: {error.strerror or error}"
+        said = error if isinstance(error, TracerError) else f"{goal}: {error.strerror or error}"
         raise TracerError(f"{said} (the parts that are done are kept)") from None
 
 
-def _read(place, settings, piece):
+def _read(place, settings, part):
     """What a part that is there brings to the film."""
-    file = place.file(piece.number, "paths")
+    file = place.file(part.number, "paths")
     folder.check_file(file)
     there = parquet.read([file], ["radiance_r", "radiance_g", "radiance_b", "reason"])
     radiance = np.stack([there[f"radiance_{c}"] for c in "rgb"])
-    if radiance.shape[1] != piece.paths:
-        raise TracerError(f"{file}: has {radiance.shape[1]} paths where {piece.paths} belong")
+    if radiance.shape[1] != part.paths:
+        raise TracerError(f"{file}: has {radiance.shape[1]} paths where {part.paths} belong")
     dropped = int(np.count_nonzero(there["reason"] == INVALID))
-    return _kept(piece, settings, radiance, int(parquet.notes(file)["rays"]), dropped)
+    blocks = _folded(part.pixels, part, settings, radiance)
+    return Kept(part, blocks, int(parquet.notes(file)["rays"]), dropped)

@@ -62,7 +62,9 @@ def restore(folder, name):
     except (OSError, ValueError, RecursionError) as error:
         raise TracerError(f"{folder / FILE}: the recording's scene cannot be read: {error}") from None
     if description is None:
-        raise TracerError(f"{folder}: its scene was made in Python and is not in the recording; pass it as scene")
+        raise TracerError(
+            f"{folder}: its scene was made in Python and is not in the recording; pass it as scene"
+        )
     try:
         return load_dict(description, name, folder)
     except TracerError as error:

@@ -26,6 +26,8 @@ def render(
     workers: Annotated[int | None, Whole] = None,
     until_error: float | None = None,
     adaptive: str = "off",
+    record: Path | None = None,
+    record_level: str | None = None,
     explain: Annotated[bool, Parameter(negative=())] = False,
     json: Json = False,
 ):
@@ -47,6 +49,11 @@ def render(
     adaptive
         mse or relmse: measure with 16 samples a pixel, then spend the rest of --spp, on average, where that
         error is.
+    record
+        Keep the paths in this folder, for castray query and castray view. Where the same was begun before, it
+        goes on. The picture is the same.
+    record_level
+        paths: a row for each path (the default); events: everything that happened, about 200 bytes a vertex.
     explain
         Say what the scene needs, what is skipped, and why.
     """
@@ -60,21 +67,43 @@ def render(
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.png") if output is None else output
     check_path(path)
+    if record is None and record_level is not None:
+        raise TracerError("record_level: says how much is kept in the folder that --record names; name one")
+    if record is not None and (until_error is not None or adaptive != "off"):
+        raise TracerError(
+            "record: keeps the same samples of every pixel; leave out --until-error and --adaptive"
+        )
     with watched("rendering") as progress:
         workers = workers or os.cpu_count() or 1
-        picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
+        if record is not None:
+            picture = tracer.record(
+                loaded, settings, record, record_level or "paths", progress, workers, steps
+            )
+        else:
+            picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
     tracer.write(picture, path, scene=str(scene))
     features = []
     if explain:
         from tracer.engine.needs import needs
 
         features = list(needs(loaded, picture.settings))
-    _report(loaded, picture, path, json, features)
+    _report(loaded, picture, path, json, features, _kept(record) if record is not None else {})
     return 0 if picture.complete else 130
 
 
-def _report(scene, picture, path, as_json, features):
-    """What was rendered, as one JSON document or one line; features: what it needed, if that was asked."""
+def _kept(record):
+    """What a recording's folder has by now."""
+    from tracer.trace.folder import opened
+
+    folder = opened(record)
+    done = folder.parts - len(folder.missing())
+    size = folder.bytes()
+    return {"folder": str(record), "level": folder.level, "parts": folder.parts, "done": done, "bytes": size}
+
+
+def _report(scene, picture, path, as_json, features, kept):
+    """What was rendered, as one JSON document or one line; features: what it needed, if that was asked; kept:
+    what was recorded."""
     height, width = picture.samples.shape
     settings = picture.settings
     if as_json:
@@ -98,6 +127,7 @@ def _report(scene, picture, path, as_json, features):
                 "out": str(path),
             }
             | ({"explain": [need._asdict() for need in features]} if features else {})
+            | ({"record": kept} if kept else {})
         )
         return
     if features:
@@ -116,3 +146,7 @@ def _report(scene, picture, path, as_json, features):
         print(f"stopped early: every pixel has at least {picture.samples.min()} of {settings.spp} samples")
     if picture.dropped:
         print(f"{picture.dropped} samples were not finite and count as 0")
+    if kept:
+        of_parts = f"{kept['done']} of {kept['parts']} parts of level {kept['level']}"
+        more = "" if picture.complete else "; the same command goes on"
+        print(f"{kept['folder']}: {of_parts}, {kept['bytes'] / 1e6:.1f} MB{more}")
