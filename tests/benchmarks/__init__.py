@@ -83,8 +83,8 @@ BENCH = (
     Section(
         "recorder",
         "Recording",
-        "The unit box, 128 x 128, 16 spp, depth 8, one process: a plain render, and the same loop with\n"
-        "every event looked at and dropped.",
+        "The unit box, 128 x 128, 16 spp, depth 8, one process: a plain render, the same loop with every\n"
+        "event looked at and dropped, with a row of each path kept on disk, and with every event kept there.",
         looking.recorder,
     ),
     Section(

@@ -25,8 +25,8 @@ _PATHS = (
 def read_trace(path, scene=None):
     """The Trace of a recording's folder, whole, in memory; `read_parts` gives it piece by piece.
 
-    scene: the Scene it is of, if that is not in the recording. At level "paths" the tables of events are empty.
-    Raises TracerError.
+    scene: the Scene it is of, if that is not in the recording. At level "paths" the tables of events are
+    empty. Raises TracerError.
     """
     return join(read_parts(path, scene))
 
@@ -47,9 +47,7 @@ def _check_names(place, scene):
     there, here = place.header["names"], columns.names_of(scene)
     for what, names in here.items():
         if there.get(what) != names:
-            raise TracerError(
-                f"{place.path}: names of each {what} are not those of the scene {scene.name}"
-            )
+            raise TracerError(f"{place.path}: names of each {what} are not those of the scene {scene.name}")
 
 
 def _part(place, number, scene, settings):

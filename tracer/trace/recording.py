@@ -61,8 +61,8 @@ class Kept(NamedTuple):
 def record(scene, settings, path, level="paths", progress=None, workers=1, steps=RIGHT):
     """Render `scene` as tracer.render does, bit for bit, and keep its paths in the folder `path`.
 
-    level: "paths", a row for each, or "events", everything that happened. Where the same recording was
-    begun before, it goes on: what is there is not traced again. progress, workers, steps: as for render; Ctrl-C
+    level: "paths", a row for each, or "events", everything that happened. Where the same recording was begun
+    before, it goes on: what is there is not traced again. progress, workers, steps: as for render. Ctrl-C
     returns the picture so far with complete = False. Raises TracerError: if the folder has something else in
     it, if the disk has too little room, if it cannot be written.
     """
