@@ -14,6 +14,7 @@ COMMANDS = {
     "render": "Render a scene to a picture.",
     "inspect": "Show the events of a pixel's paths, and how their light adds up to the pixel.",
     "doctor": "Hold the laws of light transport against a trace: what is wrong, where, and which mistake.",
+    "query": "Find the paths of a recording that did something.",
     "diff": "Compare two pictures: is their difference more than noise?",
     "bsdf": "Put one material on the bench: its properties, albedo and Fresnel curves, and a plot.",
     "bench": "Measure run time against error: which estimator for this scene?",

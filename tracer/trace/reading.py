@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from tracer import film
 from tracer.events import KINDS
 from tracer.settings import TracerError
 from tracer.trace import columns, folder, parquet, stored_scene
+from tracer.trace.recording import parts_of, read_part
 from tracer.trace.trace import Table, Trace, join
 
 _PATHS = (
@@ -80,3 +82,13 @@ def _table(place, number, kind, paths):
         raise TracerError(f"{file}: has events of paths that are not in it")
     found = {f.name: columns.whole(f.name, there, columns.axes_of(f)) for f in fields}
     return Table(row, there["step"], there["depth"], found)
+
+
+def picture(place):
+    """The picture (H, W, 3) float32 of a Folder that is whole, bit for bit as it was rendered."""
+    settings = place.settings
+    sheet = film.Film(settings.width * settings.height, settings.parts)
+    for part in parts_of(settings, place.header["lanes"]):
+        for pixels, block in read_part(place, settings, part).blocks:
+            sheet.add(pixels, block)
+    return np.ascontiguousarray(sheet.mean().T).reshape(settings.height, settings.width, 3)

@@ -163,7 +163,7 @@ def keep(scene, settings, steps, place, part):
     """Trace a part and write it, or read it if it is there; what it brings to the film, a Kept."""
     keep_freed()
     if place.part(part.number).is_dir():
-        return _read(place, settings, part)
+        return read_part(place, settings, part)
     found, blocks, rays, dropped = [], [], 0, 0
     step = max(1, waves.LANES // part.samples)
     for start in range(part.pixels.start, part.pixels.stop, step):
@@ -260,7 +260,7 @@ def _write(place, part, found, rays):
         raise TracerError(f"{said} (the parts that are done are kept)") from None
 
 
-def _read(place, settings, part):
+def read_part(place, settings, part):
     """What a part that is there brings to the film."""
     file = place.file(part.number, "paths")
     folder.check_file(file)
