@@ -41,15 +41,26 @@ def dear(line):
     return line.startswith(("castray bsdf", "castray bench"))
 
 
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    """The folder in which the README's recording was made."""
+    folder = tmp_path_factory.mktemp("recorded")
+    (line,) = [line for line in examples() if " --record " in line]
+    done = castray(*shlex.split(line, comments=True)[1:], cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
 @pytest.mark.parametrize(
     "line", [pytest.param(line, marks=pytest.mark.slow if dear(line) else ()) for line in examples()]
 )
-def test_an_example_runs_as_it_is_printed(line, tmp_path):
+def test_an_example_runs_as_it_is_printed(line, tmp_path, request):
     words = shlex.split(line, comments=True)[1:]
-    done = castray(*words, cwd=tmp_path)
+    folder = request.getfixturevalue("recorded") if words[:2] == ["query", "box"] else tmp_path
+    done = castray(*words, cwd=folder)
     assert done.returncode == 0, done.stderr
-    if "-o" in words:
-        assert (tmp_path / words[words.index("-o") + 1]).stat().st_size > 0
+    for option in {"-o", "--mask"} & set(words):
+        assert (folder / words[words.index(option) + 1]).stat().st_size > 0
 
 
 @pytest.mark.slow

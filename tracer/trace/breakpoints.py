@@ -15,30 +15,31 @@ class Breakpoint(NamedTuple):
     paths: str | None = None
 
 
+_NO_NUMBER = " OR ".join(f"no_number({name})" for name in ("beta", "f", "Le", "contribution"))
+_ENDLESS = (
+    "isnan(pdf) OR isnan(w) OR isinf(largest(beta)) OR isinf(largest(contribution)) OR reason = 'invalid'"
+)
+_MOST = "luminance({0}) = (SELECT max(luminance({0})) FROM {1} WHERE isfinite(luminance({0})))"
+_CARRIES = "kind = 'light' AND NOT visible AND largest(f) > 0 AND largest(Le) > 0"
+
 BREAKPOINTS = {
     "nan": Breakpoint(
-        "first NaN or infinity: in a throughput, density, BSDF value or contribution",
-        "no_number(beta) OR no_number(f) OR no_number(Le) OR no_number(contribution) OR isnan(pdf) OR isnan(w) "
-        "OR isinf(largest(beta)) OR isinf(largest(contribution)) OR reason = 'invalid'",
+        "NaN or infinity in a throughput, density, BSDF value or contribution",
+        f"{_NO_NUMBER} OR {_ENDLESS}",
         "reason = 'invalid' OR no_number(radiance)",
     ),
-    "negative": Breakpoint(
-        "negative contribution", "smallest(contribution) < 0", "smallest(radiance) < 0"
-    ),
+    "negative": Breakpoint("negative contribution", "smallest(contribution) < 0", "smallest(radiance) < 0"),
     "largest": Breakpoint(
-        "largest contribution",
-        "luminance(contribution) = (SELECT max(luminance(contribution)) FROM events "
-        "WHERE isfinite(luminance(contribution)))",
-        "luminance(radiance) = (SELECT max(luminance(radiance)) FROM paths WHERE isfinite(luminance(radiance)))",
+        "largest contribution", _MOST.format("contribution", "events"), _MOST.format("radiance", "paths")
     ),
     "near": Breakpoint(f"hit nearer than t = {NEAR:g}", f"kind = 'hit' AND t < {NEAR!r}"),
     "roulette": Breakpoint(
-        f"roulette with a probability below {UNLIKELY:g}", f"kind = 'roulette' AND probability < {UNLIKELY!r}"
+        f"roulette with a probability below {UNLIKELY:g}",
+        f"kind = 'roulette' AND probability < {UNLIKELY!r}",
     ),
     "self": Breakpoint(
-        "light sample blocked by the surface it starts on, or by nothing that castray finds",
-        "kind = 'light' AND NOT visible AND largest(f) > 0 AND largest(Le) > 0 "
-        "AND (blocker IS NULL OR blocker = shape)",
+        "light sample blocked by the surface it starts on, or by nothing that castray finds there",
+        f"{_CARRIES} AND (blocker IS NULL OR blocker = shape)",
     ),
 }
 

@@ -1,9 +1,9 @@
 """Asks a recording: a condition on its events, or one SELECT. It can change nothing and read nothing else.
 
-Four walls, each enough for most of it: the statement has to be one SELECT that calls no function reading files;
-DuckDB may open the recording's own files only, its configuration is locked, no extension is loaded; memory is
-limited; and all of it happens in a process of its own, which is ended when its time is over (some functions of
-DuckDB neither count their memory nor listen).
+Four walls, each enough for most of it: the statement has to be one SELECT that calls no function that reads
+files; DuckDB may open the recording's own files only, its configuration is locked, no extension is loaded;
+memory is limited; and all of it happens in a process of its own, which is ended when its time is over (some
+functions of DuckDB neither count their memory nor listen).
 """
 
 import json
@@ -19,22 +19,28 @@ SECONDS = 60.0
 MEMORY = 1 << 30  # bytes that DuckDB may use
 ADDRESSES = 6 << 30  # bytes the process may ask the system for, where that can be limited
 LONGEST = 10_000  # characters
-_READS = re.compile(r"read_|_scan|^glob$|parquet_|sniff_|^query|duckdb_|pragma_|^write_|^getenv$|setting|logging|^which_secret$")
+_READS = re.compile(
+    r"read_|_scan|^glob$|parquet_|sniff_|^query|duckdb_|pragma_|^write_"
+    r"|^getenv$|setting|logging|^which_secret$"
+)
 _WORD = re.compile(r"\s*(?:--[^\n]*\n\s*)*\(*\s*(select|with|from)\b", re.IGNORECASE)
 
 
 def ask(path, text, limit=20, seconds=SECONDS):
     """What the recording at `path` answers to a condition or a SELECT, as plain values.
 
-    A condition gives {"events", "paths", "pixels": how many match; "found": the first `limit` paths with their
-    first matching event; "mask": [x, y, paths] of each pixel with matches}. A SELECT gives {"columns", "rows",
-    "more": whether there were more than `limit`}. Raises TracerError: what is wrong, where, what there is.
+    A condition gives {"events", "paths", "pixels": how many match; "found": the first `limit` paths with
+    their first matching event; "mask": [x, y, paths] of each pixel with matches}. A SELECT gives {"columns",
+    "rows", "more": whether there were more than `limit`}. Raises TracerError: what is wrong, where, what
+    there is.
     """
     place = folder.whole(path)
     if len(text) > LONGEST:
         raise TracerError(f"query: longer than {LONGEST} characters")
     if not text.strip():
-        raise TracerError("query: is empty; give a condition, such as 'depth >= 2 AND pdf < 1e-4', or a SELECT")
+        raise TracerError(
+            "query: is empty; give a condition, such as 'depth >= 2 AND pdf < 1e-4', or a SELECT"
+        )
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe(duplex=False)
     child = context.Process(target=_work, args=(theirs, place, text, limit), daemon=True)
@@ -99,7 +105,11 @@ def _connection(place):
     """DuckDB with the recording's views and no way out."""
     import duckdb
 
-    config = {"memory_limit": f"{MEMORY >> 20}MB", "temp_directory": "", "autoinstall_known_extensions": False}
+    config = {
+        "memory_limit": f"{MEMORY >> 20}MB",
+        "temp_directory": "",
+        "autoinstall_known_extensions": False,
+    }
     connection = duckdb.connect(config=config | {"autoload_known_extensions": False})
     for name, value in (
         ("python_enable_replacements", "false"),
@@ -113,7 +123,9 @@ def _connection(place):
         for statement in views.statements(place):
             connection.execute(statement)
     except duckdb.Error as error:
-        raise TracerError(f"{place.path}: its parts are not those of a recording: {_said(error)[0]}") from None
+        raise TracerError(
+            f"{place.path}: its parts are not those of a recording: {_said(error)[0]}"
+        ) from None
     connection.execute("SET lock_configuration = true")
     return connection
 
@@ -169,7 +181,11 @@ def _selected(connection, text, limit):
     result = connection.execute(text)
     columns = [column[0] for column in result.description]
     rows = result.fetchmany(limit + 1)
-    return {"columns": columns, "rows": [[plain(v) for v in row] for row in rows[:limit]], "more": len(rows) > limit}
+    return {
+        "columns": columns,
+        "rows": [[plain(v) for v in row] for row in rows[:limit]],
+        "more": len(rows) > limit,
+    }
 
 
 def plain(value):

@@ -84,6 +84,17 @@ def _table(place, number, kind, paths):
     return Table(row, there["step"], there["depth"], found)
 
 
+def stored_pixel(place, x, y):
+    """The value (3,) float32 of a pixel as it was recorded."""
+    wanted = ", ".join(f"radiance_{c}" for c in "rgb")
+    question = (
+        f"SELECT {wanted} FROM {parquet.source(place.files('paths'))} WHERE x = ? AND y = ? ORDER BY sample"
+    )
+    with parquet.explained(place.path):
+        there = parquet.connection().execute(question, [x, y]).fetchnumpy()
+    return film.gather(np.stack([there[f"radiance_{c}"] for c in "rgb"]), place.settings.parts).mean()[:, 0]
+
+
 def picture(place):
     """The picture (H, W, 3) float32 of a Folder that is whole, bit for bit as it was rendered."""
     settings = place.settings

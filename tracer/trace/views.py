@@ -1,4 +1,4 @@
-"""What a query sees of a recording: the views `events` and `paths`, as SQL, and macros for vectors and colours.
+"""What a query sees of a recording: the views `events` and `paths` as SQL, macros for vectors and colours.
 
 Both follow from events.py. `events` has all kinds in one, NULL where a field is absent.
 """
@@ -168,12 +168,12 @@ def _lines(kind):
         yield f"  {shown:<18}{meaning}{unit} ({field.domain})"
 
 
-_FORMAT = f"""A recording is a folder:
+_FORMAT = """A recording is a folder:
 
-  recording.json    level (paths or events), settings, fingerprint, parts, and the names that numbers stand for
+  recording.json    level (paths or events), settings, fingerprint, parts, the names that numbers stand for
   scene.json        what the scene was made from, in castray's words; files/ has its meshes and pictures
-  part-00000/       Parquet: paths.parquet, and at level events a file for each kind: {", ".join(k.name for k in KINDS)}
+  part-00000/       paths.parquet, and at level events a file for each kind of event: hit.parquet, ...
   *.partial         unfinished; the same castray render --record goes on
 
-In the files a vector p is the columns p_x, p_y, p_z, a colour beta beta_r, beta_g, beta_b, and what has a name is
-its number in recording.json, counting from 0, -1 for none. The views below have p.x, beta.r and the names."""
+In the files a vector p is the columns p_x, p_y, p_z, a colour beta beta_r, beta_g, beta_b, and what has a
+name is its number in recording.json, counting from 0, -1 for none. The views have p.x, beta.r and names."""

@@ -37,8 +37,8 @@ def query(
     trace
         A folder that castray render --record made.
     text
-        A condition on the view events (on paths, where only those were recorded), or one SELECT. Vectors are p.x,
-        colours beta.r; macros dot(n, wi), length(p), luminance(c), largest(c), smallest(c), no_number(c).
+        A condition on the view events (on paths, where only those were recorded), or one SELECT. Vectors are
+        p.x, colours beta.r; macros dot(n, wi), length(p), luminance, largest, smallest, no_number of colours.
     mask
         A picture of where the paths are, over the grey picture (.png).
     limit
@@ -101,7 +101,13 @@ def _print_paths(answer):
     if not answer["found"]:
         return
     rows = [
-        [f"{p['x']} {p['y']}", p["sample"], p["kind"] or "", "" if p["depth"] is None else p["depth"], p["events"]]
+        [
+            f"{p['x']} {p['y']}",
+            p["sample"],
+            p["kind"] or "",
+            "" if p["depth"] is None else p["depth"],
+            p["events"],
+        ]
         for p in answer["found"]
     ]
     _print_table(("pixel", "sample", "first at", "depth", "events"), rows)

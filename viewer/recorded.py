@@ -1,0 +1,48 @@
+"""A recording in the viewer: its scene and settings, traced again where the reader looks."""
+
+import sys
+from pathlib import Path
+
+import tracer
+from lessons.zoo import planted
+from tracer.trace import folder, reading
+from tracer.trace.fingerprint import differences
+from tracer.trace.stored_scene import restore
+from viewer import app, link
+
+
+def is_recording(text):
+    """Whether a command line argument names the folder of a recording, with a place in it or without."""
+    path = Path(text.partition("#")[0])
+    return path.is_dir() and (text not in tracer.built_in_scenes() or (path / folder.HEADER).exists())
+
+
+def serve_recording(text, port=None, open_browser=True):
+    """Open the viewer on a recording, at the place named behind its # or at its first path."""
+    name, _, words = text.partition("#")
+    place = folder.whole(name)
+    start = link.parse(f"scene=recorded&{words}").place if words else (0, 0, 0, 0)
+    scene = restore(place.path, place.header["scene"]["name"])
+    if start is not None:
+        said = compared(place, scene, *start[:2])
+        if said:
+            print(f"castray: {said}", file=sys.stderr)
+    app.serve(scene, place.settings, port, open_browser, start)
+
+
+def compared(place, scene, x, y):
+    """What there is to say about a pixel that is traced again, None if it is the recorded one bit for bit and
+    was recorded on a machine like this. Raises TracerError outside the picture."""
+    settings = place.settings
+    again = tracer.inspect(scene, settings, x, y, steps=planted(settings)).value
+    stored = reading.stored_pixel(place, x, y)
+    other = differences(place.header["fingerprint"])
+    if again.tobytes() == stored.tobytes():
+        return f"recorded elsewhere ({'; '.join(other)}); pixel {x} {y} is the same here" if other else None
+    apart = f"recorded {_numbers(stored)}, traced again {_numbers(again)}"
+    where = f"recorded elsewhere ({'; '.join(other)})" if other else "recorded by another state of castray"
+    return f"{where}; pixel {x} {y} is not the same here: {apart}"
+
+
+def _numbers(values):
+    return " ".join(str(v) for v in values)
