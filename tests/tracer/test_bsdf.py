@@ -97,6 +97,19 @@ def test_everything_is_of_one_precision_finite_and_not_negative(suite_seed, mate
     assert ((sample.lobe >= 0) & (sample.lobe < len(LOBES))).all()
 
 
+@both
+@every
+def test_the_least_and_the_largest_random_numbers_give_finite_samples(material, dtype):
+    """One sample in 2^24 at a rough surface seen from straight above was not."""
+    ends = np.array([0.0, 0.5, 1.0 - 2.0 ** -(24 if dtype == np.float32 else 32)], dtype)
+    u = np.stack(np.meshgrid(ends, ends, ends)).reshape(3, -1)
+    for z in (1.0, 0.6, 1e-3, 1e-8, -0.5, -1.0):
+        wo = np.repeat(np.array([[np.sqrt(1.0 - z * z)], [0.0], [z]], dtype), u.shape[1], axis=1)
+        with np.errstate(all="ignore"):  # as in the loops
+            sample = material.astype(dtype).sample(wo, u)
+        assert np.isfinite(sample.wi).all() and np.isfinite(sample.f).all() and np.isfinite(sample.pdf).all()
+
+
 @every
 def test_nothing_passes_an_opaque_surface(suite_seed, material):
     wo, wi = directions(suite_seed, 4000), directions(suite_seed + 1, 4000)

@@ -43,7 +43,7 @@ def visible(w, u):
     safe = np.maximum(r, np.finfo(np.float64).tiny)
     cot = np.minimum(z / safe, 1e3)  # beyond, all of the Gaussian is seen
     most = 1.0 + erf(cot)
-    beyond = 1.0 - u[0].astype(np.float64)  # in (0, 1]: the far end of x stays finite
+    beyond = 1.0 - np.maximum(u[0].astype(np.float64), 0.5 * cell)  # in (0, 1): both ends of x stay finite
     wanted = beyond * (z * most + r * INV_SQRT_PI * np.exp(-cot * cot))
     q = most * (1.0 - (1.0 - beyond) ** _exponent(cot))
     for _ in range(STEPS):
