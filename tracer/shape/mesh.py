@@ -1,6 +1,7 @@
 """A triangle mesh without cracks: a ray through a shared edge or vertex always meets one of its owners."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -47,6 +48,10 @@ class Mesh:
 
     def planes(self):
         """The plane of each triangle."""
+        return self._planes
+
+    @cached_property
+    def _planes(self):
         a, b, c = (self.vertices[self.faces[:, k]].T for k in range(3))
         n, on = planes_through(a, b, c)
         n = -n if self.flip_normals else n
