@@ -27,7 +27,7 @@ from tracer.trace.fingerprint import fingerprint
 from tracer.trace.gather import seen, table
 from tracer.trace.trace import Trace
 
-PART_BYTES = 32 << 20  # of events in memory: ten times that is used while a part is traced and written
+PART_BYTES = 64 << 20  # of events in memory: four times that is used while a part is traced and written
 PATHS_IN_PART = 1 << 18  # at level "paths": few enough to be lost, enough that flushing a part costs little
 BYTES_OF_PATH = 40  # of one row of paths on disk, at most
 SHARE = 0.45  # bytes on disk of one byte of events, at most: measured on all scenes that come with castray
