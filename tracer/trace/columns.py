@@ -73,10 +73,15 @@ def whole(name, columns, names):
     return np.stack([columns[f"{name}_{axis}"] for axis in names])
 
 
-def of_paths(paths, number):
-    """The flat columns of paths: a Trace's `paths`, and their numbers (P,)."""
+def numbers(paths, settings):
+    """The numbers (P,) of paths, of which x, y and sample are known."""
+    pixel = paths["y"].astype(np.int64) * settings.width + paths["x"]
+    return pixel * settings.spp + paths["sample"]
+
+
+def of_paths(paths):
+    """The flat columns of a Trace's `paths`."""
     return {
-        "path": number.astype(np.int64),
         "x": paths["x"].astype(np.uint16),
         "y": paths["y"].astype(np.uint16),
         "sample": paths["sample"].astype(np.uint32),
@@ -87,12 +92,12 @@ def of_paths(paths, number):
     }
 
 
-def of_events(kind, trace, previous, number):
+def of_events(kind, trace, previous, own):
     """The flat columns of a Trace's events of a kind.
 
-    previous: (E,) number of the kind before each; number: (P,) numbers of the paths.
+    previous: (E,) number of the kind before each; own: flat columns of the paths, and their numbers as path.
     """
-    table, own = trace.tables[kind.name], of_paths(trace.paths, number)
+    table = trace.tables[kind.name]
     columns = {name: own[name].take(table.path) for name in ("path", "x", "y", "sample")}
     columns |= {
         "step": table.step.astype(np.int32),

@@ -10,7 +10,6 @@ from tracer.trace.recording import parts_of, read_part
 from tracer.trace.trace import Table, Trace, join
 
 _PATHS = (
-    "path",
     "x",
     "y",
     "sample",
@@ -63,7 +62,8 @@ def _part(place, number, scene, settings):
         "end": there["reason"],
         "vertices": there["vertices"].astype(np.int64),
     }
-    tables = {kind.name: _table(place, number, kind, there["path"]) for kind in KINDS}
+    numbers = columns.numbers(paths, settings)
+    tables = {kind.name: _table(place, number, kind, numbers) for kind in KINDS}
     return Trace(scene, settings, paths, tables, float(np.finfo(scene.dtype).eps))
 
 

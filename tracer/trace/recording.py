@@ -169,12 +169,11 @@ def keep(scene, settings, steps, place, part):
     for start in range(part.pixels.start, part.pixels.stop, step):
         pixels = slice(start, min(start + step, part.pixels.stop))
         wave = _wave(np.arange(pixels.start, pixels.stop), part, settings, steps)
-        number = (wave.y.astype(np.int64) * settings.width + wave.x) * settings.spp + wave.sample
         events = waves.events(scene, settings, wave)
         if place.level == "events":
-            found.append(_all(events, scene, settings, wave, number))
+            found.append(_all(events, scene, settings, wave))
         else:
-            found.append({"paths": columns.of_paths(_paths(events, wave), number)})
+            found.append({"paths": columns.of_paths(_paths(events, wave))})
         blocks += _folded(pixels, part, settings, wave.radiance)
         rays, dropped = rays + wave.rays, dropped + wave.dropped
     _write(place, part, found, rays)
@@ -215,7 +214,7 @@ def _paths(events, wave):
     return own | {"vertices": vertices, "end": reason}
 
 
-def _all(events, scene, settings, wave, number):
+def _all(events, scene, settings, wave):
     """Every event, by kind, and the paths."""
     stages = seen(events, wave)
     found = {kind.name: table(kind, stages.pop(kind.name), scene.dtype) for kind in KINDS}
@@ -231,8 +230,10 @@ def _all(events, scene, settings, wave, number):
     }
     tables = {name: one for name, (one, _) in found.items()}
     trace = Trace(scene, settings, paths, tables, float(np.finfo(scene.dtype).eps))
-    of_kinds = {kind.name: columns.of_events(kind, trace, found[kind.name][1], number) for kind in KINDS}
-    return {"paths": columns.of_paths(paths, number)} | of_kinds
+    flat = columns.of_paths(paths)
+    own = flat | {"path": columns.numbers(paths, settings)}
+    of_kinds = {kind.name: columns.of_events(kind, trace, found[kind.name][1], own) for kind in KINDS}
+    return {"paths": flat} | of_kinds
 
 
 def _write(place, part, found, rays):

@@ -79,9 +79,10 @@ def statements(place):
 
 def _paths(place):
     reason = _name_of("reason", place.header["names"]["reason"])
+    number = f"(y::BIGINT * {place.settings.width} + x) * {place.settings.spp} + sample"
     selected = (
-        f"{_struct('pixel', ('x', 'y'), ('x', 'y'))}, x, y, sample, path, {_vector('film', ('x', 'y'))}, "
-        f"{_vector('radiance', ('r', 'g', 'b'))}, vertices, {reason} AS reason"
+        f"{_struct('pixel', ('x', 'y'), ('x', 'y'))}, x, y, sample, {number} AS path, "
+        f"{_vector('film', ('x', 'y'))}, {_vector('radiance', ('r', 'g', 'b'))}, vertices, {reason} AS reason"
     )
     return f"SELECT {selected} FROM {parquet.source(place.files('paths'))}"
 
