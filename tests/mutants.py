@@ -113,6 +113,10 @@ MUTANTS = {
     "unit-direction": ("room", _scaled("bounce.wi", 1.001)),
     "chain": ("room", _turned("bounce.wi")),
     "escape-direction": ("sky", _turned("escape.d")),
+    "own-surface": (
+        "room",
+        lambda t: changed(t, "hit.primitive", lambda primitive: np.full_like(primitive, 2)),
+    ),
     "first-surface": ("room", lambda t: _behind(t)),
     "escape-free": ("room", lambda t: _fled(t)),
     "on-surface": ("room", lambda t: changed(t, "hit.p", lambda p: p * p.dtype.type(0.98))),

@@ -24,6 +24,9 @@ def judged(evidence, kind, rows, recorded, value, inputs, what, sound=None, most
     """
     given = {name: array for name, (array, _) in inputs.items()}
     sound = np.ones(rows.shape, bool) if sound is None else sound
+    for array in given.values():
+        if array.dtype.kind == "f":
+            sound = sound & ~_any(np.isnan(array))
     right = value(**given)
     tiny = 1e-36  # what underflows in float32 underflows in any order
     bound = STEPS * evidence.eps * np.abs(right) + tiny + absolute

@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from tracer.doctor import statistics
 from tracer.doctor.evidence import Evidence
 from tracer.doctor.laws import LAWS
 from tracer.doctor.naming import named
@@ -11,15 +12,20 @@ from tracer.doctor.rule import FIRED, applied
 
 # What breaks together: where the first of a group is broken, the others are too, by the same mistake.
 _TOGETHER = (
-    ("camera-ray", "camera-start", "chain", "escape-direction", "first-surface", "escape-free", "on-surface",
-     "distance", "wo"),
+    ("camera-ray", "camera-start", "chain", "escape-direction", "own-surface", "first-surface", "escape-free",
+    "on-surface",      "distance", "wo"),
     ("unit-normal", "normal", "shading-normal", "side"),
+    ("bounce-mirror", "bounce-mirror-f", "bounce-mirror-pdf"),
+    ("bounce-side", "bounce-f", "bounce-pdf"),
     ("transmittance", "light-transmittance", "throughput-on-arrival"),
     ("emission", "pdf-of-light"),
     ("roulette-probability", "roulette-played"),
     ("light-pick", "light-pdf"),
     ("light-radiance", "light-pdf"),
 )  # fmt: skip
+_OF_MANY = tuple(rule.id for rule in statistics.RULES)
+_NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
+_BOUNCES = ("unit-normal", "normal", "shading-normal", "unit-direction", "wo", "absorbed", "bounce-")
 _ALWAYS_LATER = ("domain", "finite")  # what any mistake may lead to
 
 
@@ -96,7 +102,7 @@ class Diagnosis:
 def examine(trace):
     """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked."""
     evidence = Evidence(trace)
-    verdicts = tuple(applied(rule, evidence) for rule in LAWS)
+    verdicts = tuple(applied(rule, evidence) for rule in LAWS) + statistics.judged(evidence)
     findings = [_finding(evidence, verdict) for verdict in verdicts if verdict.state == FIRED]
     return Diagnosis(_ranked(findings), verdicts)
 
@@ -112,6 +118,8 @@ def _ranked(findings):
 
 
 def _cause(rule, fired):
+    if rule in _OF_MANY:
+        return next((other for other in fired if _explains(other, rule)), None)
     if rule in _ALWAYS_LATER:
         return next((other for other in fired if other not in _ALWAYS_LATER), None)
     for group in _TOGETHER:
@@ -120,6 +128,21 @@ def _cause(rule, fired):
                 if other in fired:
                     return other
     return None
+
+
+def _explains(cause, rule):
+    """Whether a broken law may be why a statistical one is."""
+    if cause == rule or (cause in _OF_MANY and _OF_MANY.index(cause) > _OF_MANY.index(rule)):
+        return False
+    if rule in _NUMBERS:
+        return cause in _NUMBERS or cause == "absorbed"
+    if rule in ("mean", "variance") or cause in _NUMBERS:
+        return True
+    if rule.startswith("directions"):
+        return cause.startswith(_BOUNCES) or cause.startswith("directions")
+    if rule.startswith("lamp"):
+        return cause.startswith("light-") or cause.startswith("lamp")
+    return cause.startswith("roulette")
 
 
 def _following(finding, cause):

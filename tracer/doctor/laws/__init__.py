@@ -30,7 +30,8 @@ _FAMILIES = (
 _ORDER = (
     "camera-pixel", "camera-ray", "camera-start",
     "unit-normal", "normal", "shading-normal", "unit-light", "unit-direction",
-    "chain", "escape-direction", "first-surface", "escape-free", "on-surface", "distance", "wo",
+    "chain", "escape-direction", "own-surface",
+    "first-surface", "escape-free", "on-surface", "distance", "wo",
     "side", "depth",
     "transmittance", "light-transmittance",
     "emission", "environment",

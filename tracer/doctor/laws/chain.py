@@ -47,6 +47,30 @@ def on_the_ray(evidence):
     )
 
 
+def own_surface(evidence):
+    """I12: which HITs lie on the very surface that their ray starts on."""
+    o, d, source = evidence.arrivals
+    primitive, brute = evidence("hit.primitive"), evidence.brute
+    rows = np.flatnonzero((primitive == source) & sound(evidence))
+    bad = np.ones(rows.size, bool)
+    chord = np.zeros(rows.size)
+    ball = brute.is_sphere.take(primitive[rows])
+    if ball.any():
+        # Inside a sphere a ray meets it again, at the other end of the chord.
+        out = o[:, rows] - brute.center[:, np.where(ball, brute.column.take(primitive[rows]), 0)]
+        chord = np.where(ball, -2.0 * dot(out, d[:, rows]), 0.0)
+        room = 32.0 * evidence.off_point
+        along = dot(evidence("hit.p")[:, rows] - o[:, rows], d[:, rows])
+        bad = ~ball | (np.abs(along - chord) > room)
+        unsure = ball & (np.abs(chord) <= room) & ~bad
+    else:
+        unsure = np.zeros_like(bad)
+    everyone = np.arange(primitive.size)
+    wrong, doubt = np.zeros(everyone.size, bool), np.zeros(everyone.size, bool)
+    wrong[rows], doubt[rows] = bad, unsure
+    return Outcome("hit", everyone, wrong, doubt, primitive, np.full(primitive.size, -1), "primitive")
+
+
 def distance(evidence):
     """t is the length of the way."""
     _, d, _ = evidence.arrivals
@@ -110,8 +134,9 @@ def escape_direction(evidence):
     """The direction of an ESCAPE is that of the last bounce."""
     _, d, _ = evidence.departures
     there = evidence("escape.d")
-    bad = ~(np.abs(there - d) <= 2.0 * evidence.off_unit).all(axis=0)
-    return Outcome("escape", np.arange(bad.size), bad, np.zeros_like(bad), there, d, "d")
+    unsure = np.isnan(d).any(axis=0)
+    bad = ~(np.abs(there - d) <= 2.0 * evidence.off_unit).all(axis=0) & ~unsure
+    return Outcome("escape", np.arange(bad.size), bad, unsure, there, d, "d")
 
 
 def carried(evidence, kind):
@@ -149,6 +174,14 @@ RULES = (
         "p' = p + t wi",
         ("hit.p", *_RAY),
         on_the_ray,
+    ),
+    Rule(
+        "own-surface",
+        "Rays do not meet what they start on",
+        "A flat face is not met by a ray that starts on it; a sphere at the other end of the chord only.",
+        "primitive_k+1 != primitive_k",
+        ("hit.primitive", "hit.p", *_RAY),
+        own_surface,
     ),
     Rule(
         "first-surface",

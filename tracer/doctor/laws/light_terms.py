@@ -8,6 +8,8 @@ from tracer.doctor.laws.emission import mis, strategy
 from tracer.doctor.rule import Outcome, Rule
 from tracer.frame import dot, length
 
+_LEAST = 1e-30  # what would arrive and is less may have underflowed: then nobody asks whether it is seen
+
 
 def reflected(evidence):
     """I2: f is that of the surface at this vertex."""
@@ -98,13 +100,15 @@ def term(evidence):
 
 def visible(evidence):
     """I6: whether the light point is seen, by every primitive asked one by one."""
-    could = np.ones(evidence.count("light"), bool)
-    for name in ("f", "Le", "beta"):
+    arriving = np.ones(evidence.count("light"))
+    for name in ("f", "Le", "beta", "pdf", "w", "cos"):
         if evidence.has(f"light.{name}"):
-            could &= (evidence(f"light.{name}") > 0.0).any(axis=0)
-    for name in ("pdf", "w", "cos"):
-        if evidence.has(f"light.{name}"):
-            could &= evidence(f"light.{name}") > 0.0
+            column = evidence(f"light.{name}")
+            column = column.max(axis=0) if column.ndim == 2 else column
+            arriving = (
+                arriving / np.where(column > 0.0, column, np.inf) if name == "pdf" else arriving * column
+            )
+    could = arriving > _LEAST
     seen = evidence("light.visible").astype(bool)
     rows = np.flatnonzero(could | seen)
     if not rows.size:

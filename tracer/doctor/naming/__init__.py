@@ -6,10 +6,10 @@ nearly all of the numbers is no name: then the law and the vertex are what can b
 
 import numpy as np
 
-from tracer.doctor.naming import bounce, light, path
+from tracer.doctor.naming import bounce, light, many, path
 from tracer.doctor.naming.case import Case, Clue
 
-_NAMES = light.NAMES | bounce.NAMES | path.NAMES
+_NAMES = light.NAMES | bounce.NAMES | path.NAMES | many.NAMES
 
 
 def named(evidence, rule, outcome):

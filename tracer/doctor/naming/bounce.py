@@ -6,6 +6,13 @@ from tracer.doctor.naming.case import SHARE, Clue, first
 from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials
 from tracer.frame import dot
 
+_ZERO = "the density of this direction is 0, and the path goes on: the throughput is 0/0"
+
+
+def _divided_by_zero(case):
+    """Whether paths go on in directions of density 0."""
+    return bool(np.mean(case["pdf"] == 0.0) >= SHARE)
+
 
 def density(case):
     """The density of a bounce."""
@@ -20,6 +27,7 @@ def density(case):
     return first(
         case,
         [
+            ("B15", _ZERO, _divided_by_zero(case)),
             (
                 "B01",
                 "recorded 1/(2 pi), the density of uniform directions; the sampler declared has cos/pi",
@@ -57,6 +65,8 @@ def reflected(case):
     return first(
         case,
         [
+            ("B15", _ZERO, _divided_by_zero(case)),
+            ("G09", "light from below the true surface is let through", lambda: leaks(case, given, wi)),
             ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
             (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
             ("D10", "recorded = right x cos: the cosine is in f already", right * cos),
@@ -75,7 +85,6 @@ def reflected(case):
                 "recorded is f asked with world directions",
                 lambda: local(case.evidence, given, wi, "eval"),
             ),
-            ("G09", "light from below the true surface is let through", lambda: leaks(case, given, wi)),
         ]
         + materials(case, given, wi),
     )
@@ -178,8 +187,15 @@ def mirror(case):
     use = np.isfinite(bent) & (sin_i > 0.05)
     if use.any() and np.mean(np.abs(bent - 1 / eta)[use] < 1e-3 / eta[use]) >= SHARE:
         inside = np.mean(dot(case.evidence.brute.normals(case.vertex("p"), case.vertex("primitive")), wo) < 0)
-        where = "from inside" if inside >= SHARE else "from both sides"
-        return Clue("S01", f"sin i / sin t is the inverse of the index, {where}: it is not swapped", ("W03",))
+        if inside >= SHARE:
+            return Clue(
+                "S01", "sin i / sin t is the inverse of the index, from inside: it is not swapped there"
+            )
+        return Clue(
+            "W03", "sin i / sin t is the inverse of the index, from both sides: inside is taken for outside"
+        )
+    if case.is_(wo):
+        return Clue("S04", "what is reflected goes back along wo: the half vector has the wrong sign")
     if np.mean(~np.isfinite(case.right).all(axis=0)) >= SHARE:
         return Clue("S02", "light is transmitted where all of it is reflected")
     return None
@@ -206,6 +222,8 @@ def mirror_share(case):
 
 def side(case):
     """Bounces into the surface."""
+    if _divided_by_zero(case):
+        return Clue("B15", _ZERO)
     share = case.outcome.wrong.sum() / max((~case.outcome.unsure).sum(), 1)
     if 0.4 < share < 0.6:
         return Clue(

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.doctor.laws.emission import mis
 from tracer.doctor.naming.case import SHARE, Clue, first
-from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials
+from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials, mixed, nothing_rough
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
@@ -26,6 +26,11 @@ def term(case):
     return first(
         case,
         [
+            (
+                "D08",
+                "recorded < 0, and only behind the lamp: its cosine is not clamped",
+                lambda: bool(np.mean((case.recorded.min(axis=0) < 0.0) & (cos_light < 0.0)) >= SHARE),
+            ),
             ("D07", "recorded = -right: the lamp's cosine has the wrong sign", -ratio),
             ("D10", "recorded = right / cos: the cosine at the surface is missing", ratio / cos),
             ("D10", "recorded = right x cos: there is one cosine too many", ratio * cos),
@@ -62,11 +67,6 @@ def term(case):
                 None,
                 "what is hidden counts as if it were seen",
                 lambda: bool(np.mean(~case["visible"].astype(bool)) >= SHARE),
-            ),
-            (
-                "D08",
-                "recorded < 0 behind the lamp: its cosine is not clamped",
-                lambda: bool(np.mean((case.recorded.min(axis=0) < 0.0) & (cos_light < 0.0)) >= SHARE),
             ),
         ],
     )
@@ -189,6 +189,16 @@ def reflected(case):
     return first(
         case,
         [
+            (
+                "G09",
+                "light from below the true surface is let through by the shading normal",
+                lambda: leaks(case, given, wi),
+            ),
+            (
+                "S08",
+                "recorded NaN on rough surfaces: a roughness of 0 is divided by",
+                lambda: nothing_rough(case, given),
+            ),
             ("D06", "recorded is the f of the lamp's material, not of the surface's", lamp),
             ("D06", "f is the same at surfaces of different materials: that of the lamp's", grey),
             ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
@@ -210,9 +220,9 @@ def reflected(case):
                 lambda: local(evidence, given, wi, "eval"),
             ),
             (
-                "G09",
-                "light from below the true surface is let through by the shading normal",
-                lambda: leaks(case, given, wi),
+                "W04",
+                "recorded is f asked with a local wo and wi in world space",
+                lambda: mixed(evidence, given, wi, "eval"),
             ),
         ]
         + materials(case, given, wi),

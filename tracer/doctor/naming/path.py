@@ -87,8 +87,56 @@ def first_surface(case):
     if np.mean(np.abs(skipped - 1.0) < 0.01) >= SHARE:
         return Clue(
             "B10",
-            "t is measured from the surface that was skipped: the path goes on from the next "
-            "hit's point, in the old direction",
+            "t is measured from the surface that was skipped: the path goes on from the next hit's point, in "
+            "the old direction",
+        )
+    return _never_met(case)
+
+
+def _never_met(case):
+    """The surfaces that rays go through are those that no ray of the trace meets at all."""
+    evidence = case.evidence
+    through = np.unique(case.outcome.facts["met"][case.outcome.wrong])
+    flat = np.array([np.ptp(shape.outline(), axis=1).min() for shape in evidence.scene.shapes])
+    met = np.bincount(evidence("hit.primitive"), minlength=evidence.scene.shape_of.size)
+    if met[through].any():
+        return None
+    names = ", ".join(sorted({evidence.scene.shapes[k].name for k in evidence.scene.shape_of[through]}))
+    if (flat[evidence.scene.shape_of[through]] <= 1e-9 * evidence.scale).all():
+        return Clue("G01", f"no ray meets {names}: their bounding boxes have no thickness, and are refused")
+    return Clue(None, f"no ray meets {names}")
+
+
+def own_surface(case):
+    """Rays that meet what they start on."""
+    share = case.outcome.wrong.sum() / max(case.outcome.rows.size, 1)
+    ball = case.evidence.brute.is_sphere.take(case["primitive"])
+    words = (
+        f"{share:.0%} of the vertices lie on the surface that the ray starts on: it has no offset, no least t"
+    )
+    if ball.mean() >= SHARE:
+        return Clue("G08", words, ("G03",))
+    return Clue("G03", words, ("G08",) if ball.any() else ())
+
+
+def unit_direction(case):
+    """Directions that are not unit."""
+    if case.kind != "bounce" or case.outcome.facts["field"] != "wi":
+        return None
+    n, nan = case.vertex("n"), ~np.isfinite(case.recorded)
+    if nan.mean() < SHARE:
+        return None
+    if case.has("delta") and case["delta"].all():
+        eta = case.evidence.trace.column("bounce", "eta")
+        cos = dot(n, case.vertex("wo"))
+        if eta is not None and np.mean(1.0 - cos * cos >= eta[case.rows].astype(float) ** 2 - 1e-4) >= SHARE:
+            return Clue("S02", "no number, where all light is reflected: the root of a negative number")
+        return None
+    along = np.abs(n).max(axis=0)
+    axis = np.abs(n).argmax(axis=0)
+    if (along > 1.0 - 1e-5).all() and np.unique(axis).size == 1:
+        return Clue(
+            "B17", f"no number wherever the normal is along {'xyz'[axis[0]]}: there the frame breaks down"
         )
     return None
 
@@ -112,6 +160,22 @@ def normal(case):
             ),
         ],
     )
+
+
+def shading(case):
+    """Shading normals that are not the interpolated ones."""
+    clue = normal(case)
+    if clue:
+        return clue
+    stretch = case.recorded / case.right
+    big = (np.abs(case.right) > 0.1).all(axis=0)
+    stretch = (stretch / stretch[:1])[:, big]
+    if big.sum() > 8 and (np.ptp(stretch, axis=1) < 0.01).all() and np.abs(stretch - 1.0).max() > 0.01:
+        x, y, z = (f"{v:.3g}" for v in np.median(stretch, axis=1))
+        return Clue(
+            "N03", f"x, y, z are stretched like {x} : {y} : {z}: moved by M, not its inverse transpose"
+        )
+    return None
 
 
 def unit_normal(case):
@@ -175,6 +239,15 @@ def absorbed(case):
             f"{share:.0%} of the paths end at their first diffuse surface: the BSDF is asked with a "
             "direction that points into the surface, and answers 0",
         )
+    wi, p = case.evidence("bounce.wi"), case.evidence.at_vertex("bounce", "p")
+    n = case.evidence.at_vertex("bounce", "n")
+    if (dot(wi, p) > 0.0).mean() >= 0.999 and (dot(n, p) > 0.0).mean() < 0.9:
+        return Clue(
+            "B04", "every bounce goes away from the origin of space: the position stands for the normal"
+        )
+    ends = case.outcome.wrong.sum()
+    if 0.4 < ends / (ends + n.shape[1]) < 0.6:
+        return Clue("B08", "half of the directions lead into the surface: the whole sphere is sampled")
     return None
 
 
@@ -199,6 +272,14 @@ def camera_ray(case):
         return Clue("F06", f"{words}: the picture is mirrored")
     if linear:
         return Clue("F06", f"{words}: aspect ratio or field of view")
+    seen_x = 0.5 * (at_x / half + 1.0) * width
+    seen_y = 0.5 * (height - at_y / half * width)
+    off = np.stack((seen_x - x, seen_y - y))
+    inside = (seen_x > -0.5) & (seen_x < width + 0.5) & (seen_y > -0.5) & (seen_y < height + 0.5)
+    if inside.all() and np.mean(np.abs(off - off.round()) < 0.01) >= SHARE:
+        return Clue("P05", "the rays are those of other pixels of the picture, by whole pixels")
+    if inside.all():
+        return Clue("P05", "the rays are those of other places in the picture")
     return None
 
 
@@ -209,6 +290,10 @@ NAMES = {
     "chain": chain,
     "first-surface": first_surface,
     "normal": normal,
+    "shading-normal": shading,
+    "escape-free": _never_met,
+    "own-surface": own_surface,
+    "unit-direction": unit_direction,
     "unit-normal": unit_normal,
     "ledger": ledger,
     "absorbed": absorbed,

@@ -23,6 +23,22 @@ def local(evidence, given, wi, what):
     return getattr(evidence.scene.bsdf, what)(material, given["wo"], wi, texture)
 
 
+def mixed(evidence, given, wi, what):
+    """What the BSDF says of a local wo and a wi in world space."""
+    material = evidence.scene.bsdf_of.take(given["primitive"])
+    texture = evidence.scene.painted(given["p"], given["primitive"])
+    frame = evidence.scene.frame(given["n"], given["p"], given["primitive"])
+    return getattr(evidence.scene.bsdf, what)(material, frame.to_local(given["wo"]), wi, texture)
+
+
+def nothing_rough(case, given):
+    """Whether f is no number, and that on rough surfaces only."""
+    nan = np.isnan(case.recorded).any(axis=0)
+    materials = list(case.evidence.scene.definition.bsdfs.values())
+    rough = np.array(["D" in m.explain(np.ones((3, 1)), np.ones((3, 1))) for m in materials])
+    return bool(nan.mean() >= SHARE and rough[case.evidence.scene.bsdf_of.take(given["primitive"])].all())
+
+
 def leaks(case, given, wi):
     """Whether light is let through where shading and true normal disagree about its side."""
     ng = case.evidence.brute.normals(given["p"], given["primitive"])
