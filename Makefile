@@ -1,6 +1,7 @@
 # make run: the viewer on a Cornell box.  make test: every test.  make quick: those under a minute.
 # make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.
 # make accuracy: measures and writes ACCURACY.md.  make peers: compares with Mitsuba, likewise.  make clean.
+# make doctor-table: which bugs of the zoo the doctor names, into DOCTOR.md.
 # make bench: measures and writes BENCHMARKS.md.  make race: the part of it with Mitsuba.
 
 PYTHON ?= python3
@@ -12,7 +13,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds accuracy peers bench race clean system
+.PHONY: run test quick check format seeds accuracy peers bench race doctor-table clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -40,6 +41,10 @@ seeds: .venv/.dev
 # Half an hour on two cores; may be stopped and goes on where it was. `make test` does one percent of it.
 accuracy: .venv/.dev
 	.venv/bin/python tests/accuracy.py
+
+# A quarter of an hour on two cores; may be stopped and goes on where it was.
+doctor-table: .venv/.dev
+	.venv/bin/python tests/doctor_table.py
 
 # The same scenes by castray and by Mitsuba 3. Half an hour; may be stopped and goes on where it was.
 peers: .venv/.peers

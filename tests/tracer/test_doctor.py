@@ -3,6 +3,9 @@
 from dataclasses import replace
 from functools import cache
 
+import doctor_paper
+import doctor_table
+import false_alarms
 import numpy as np
 import pytest
 from mutants import MUTANTS, changed, traced, with_column
@@ -203,3 +206,25 @@ def test_every_statistical_law_is_among_those_with_a_twin_or_a_bug():
         "variance",
     }
     assert {rule.id for rule in statistics.RULES} == held
+
+
+def test_the_table_and_the_alarms_are_written_and_gone_on_with(tmp_path, monkeypatch):
+    monkeypatch.setattr(doctor_paper, "KEPT", tmp_path)
+    monkeypatch.setattr(doctor_paper, "commit", lambda: "abc1234")
+    paper = tmp_path / "DOCTOR.md"
+    row = doctor_table.measured(zoo.ZOO["D10"], side=16, spp=4)
+    assert (row["rank"], row["rule"], row["named"]) == (1, "light-term", ["D10"])
+    doctor_paper.keep("table", row)
+    assert doctor_paper.kept("table") == {"D10": row}
+    doctor_paper.write("table", doctor_table.text({"D10": row, "P07": None}), paper)
+    key, scene, settings = next(false_alarms.plan(["cornell_unit"]))
+    alarm = false_alarms.measured(key, scene, replace(settings, width=8, height=8, spp=4))
+    assert (alarm["single"], alarm["many"], alarm["paths"]) == ([], [], 256)
+    doctor_paper.write("alarms", false_alarms.text([alarm]), paper)
+    text = paper.read_text(encoding="utf-8")
+    assert "| D10 |" in text and "| light-term |" in text and "100%" in text and "only time is lost" in text
+    assert "| cornell_unit | 256 |" in text
+    doctor_paper.write("table", "new\n", paper)
+    assert "| D10 |" not in paper.read_text(encoding="utf-8") and "| cornell_unit |" in paper.read_text(
+        encoding="utf-8"
+    )
