@@ -71,11 +71,12 @@ def text(rows):
     classes = "; ".join(f"{a} is told as {b}" for a, b in ALIKE.items())
     slow = max((row["judging"] for row in shown), default=0.0)
     head = (
-        f"Each bug in its own scene and settings, the longer side {SIDE} pixels, {SPP} spp, at commit {commit()}. "
-        f"Of {len(shown)} bugs {some} are found and {first} named first ({first / max(len(shown), 1):.0%}), "
-        f"up to what no trace tells apart ({classes}; W01 to W04 and N01 to N04 have names of their own). The "
-        f"abandoned castRay is right if E01, D01 and D06 are all named. Judging took up to {slow:.0f} s.\n\n"
-        "| bug | | law that fires first | events, or chance | named | rank | s |\n|---|---|---|---|---|---|---|\n"
+        f"Each bug in its own scene and settings, the longer side {SIDE} pixels, {SPP} spp, at commit "
+        f"{commit()}. Of {len(shown)} bugs {some} are found and {first} named first "
+        f"({first / max(len(shown), 1):.0%}), up to what no trace tells apart ({classes}). The abandoned castRay "
+        f"is right if E01, D01 and D06 are all named. Judging took up to {slow:.0f} s.\n\n"
+        "| bug | | law that fires first | events, or chance | named | rank | s |\n"
+        "|---|---|---|---|---|---|---|\n"
     )
     return head + "\n".join(line(zoo.ZOO[key], row) for key, row in rows.items()) + "\n"
 

@@ -225,6 +225,5 @@ def test_the_table_and_the_alarms_are_written_and_gone_on_with(tmp_path, monkeyp
     assert "| D10 |" in text and "| light-term |" in text and "100%" in text and "only time is lost" in text
     assert "| cornell_unit | 256 |" in text
     doctor_paper.write("table", "new\n", paper)
-    assert "| D10 |" not in paper.read_text(encoding="utf-8") and "| cornell_unit |" in paper.read_text(
-        encoding="utf-8"
-    )
+    text = paper.read_text(encoding="utf-8")
+    assert "| D10 |" not in text and "| cornell_unit |" in text
