@@ -73,8 +73,8 @@ def text(rows):
     head = (
         f"Each bug in its own scene and settings, the longer side {SIDE} pixels, {SPP} spp, at commit "
         f"{commit()}. Of {len(shown)} bugs {some} are found and {first} named first "
-        f"({first / max(len(shown), 1):.0%}), up to what no trace tells apart ({classes}). The abandoned castRay "
-        f"is right if E01, D01 and D06 are all named. Judging took up to {slow:.0f} s.\n\n"
+        f"({first / max(len(shown), 1):.0%}), up to what no trace tells apart ({classes}). The abandoned "
+        f"castRay is right if E01, D01 and D06 are all named. Judging took up to {slow:.0f} s.\n\n"
         "| bug | | law that fires first | events, or chance | named | rank | s |\n"
         "|---|---|---|---|---|---|---|\n"
     )

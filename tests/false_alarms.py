@@ -62,8 +62,8 @@ def text(rows):
     most = int(binom.ppf(0.999, traces, ALPHA))
     lines = [
         f"Right traces of {SIDE} x {SIDE} pixels and {SPP} spp at commit {commit()}: three integrators, both "
-        f"precisions, seeds from {SEED} on. {traces} traces, in {wrong} of them a statistical law fired; with "
-        f"a chance of {ALPHA:g} each, up to {most} are to be expected (99.9 %).",
+        f"precisions, seeds from {SEED} on. {traces} traces, in {wrong} of them a statistical law fired; "
+        f"with a chance of {ALPHA:g} each, up to {most} are to be expected (99.9 %).",
         "",
         "| scene | paths | checks of single events | abstained | findings | traces | statistical findings |",
         "|---|---|---|---|---|---|---|",
