@@ -12,7 +12,7 @@ KEPT = ROOT / ".doctor"
 HEAD = """# The doctor, measured
 
 `castray doctor SCENE` traces a picture, keeps every event, and holds the laws of light transport against
-them; what breaks one is named, shown and can be replayed. This page is written by commands, section by section.
+them; what breaks one is named, shown and can be replayed. Commands write this page, section by section.
 """
 SECTIONS = {
     "table": ("Bugs of the zoo", "make doctor-table"),

@@ -4,6 +4,8 @@ A point known up to `slack` metres leaves room for doubt near edges and where ra
 what is surely met, and what may be.
 """
 
+from functools import cached_property
+
 import numpy as np
 
 from tracer.frame import dot, normalize
@@ -63,6 +65,14 @@ class Brute:
         sign = np.where(turned < 0.0, -1.0, 1.0)
         key = np.vstack((sign * self.n, sign * self.c / size)).round(9) + 0.0
         self.plane = np.unique(key, axis=1, return_inverse=True)[1].ravel() if key.size else np.empty(0, int)
+
+    @cached_property
+    def reach(self):
+        """Sum of the coordinates' sizes that enter each primitive's plane or sphere in metres, (P,)."""
+        found = np.empty(self.size)
+        found[self.flat] = sum(np.abs(v).sum(axis=0) for v in (self.corner, self.e1, self.e2))
+        found[self.sphere] = np.abs(self.center).sum(axis=0) + self.radius
+        return found
 
     def planes_of(self, primitive):
         """A number for the plane of each primitive (N,), the same for coplanar faces; -1 for spheres and for

@@ -70,7 +70,7 @@ class Lamps:
         o, p, primitive = (inputs[name][0] for name in ("o", "p", "primitive"))
         # What lies in a lamp's plane but for rounding sees nothing of it: there rounding decides.
         height = np.abs(dot(self.brute.normals(p, primitive), o - p))
-        clear = height > 4.0 * evidence.off_point
+        clear = height > 4.0 * evidence.off_point + 64.0 * evidence.eps * self.brute.reach.take(primitive)
         sound = clear if sound is None else sound & clear
         outcome = judged(evidence, kind, rows, recorded, value, inputs, what, sound)
         if evidence.settings.light_sampling == "area" or not outcome.wrong.any():
