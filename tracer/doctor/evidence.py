@@ -85,10 +85,7 @@ class Evidence:
 
     def at_vertex(self, kind, name):
         """A column of the last HIT before each event of a kind; of no meaning where there is none."""
-        place = f"{kind}'s {name}"
-        if place not in self._columns:
-            self._columns[place] = self(f"hit.{name}").take(self.before(kind, "hit"), axis=-1)
-        return self._columns[place]
+        return self(f"hit.{name}").take(self.before(kind, "hit"), axis=-1)
 
     @cached_property
     def scale(self):
