@@ -80,6 +80,7 @@ SHOWN = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bug", SHOWN)
 def test_a_bug_of_the_zoo_is_named_first(bug):
     first = examine(zoo_trace(bug)).findings[0]
@@ -88,6 +89,7 @@ def test_a_bug_of_the_zoo_is_named_first(bug):
     assert first.count > 0 and first.explanation
 
 
+@pytest.mark.slow
 def test_the_abandoned_castray_is_three_mistakes_that_hide_each_other():
     assert {"E01", "D01", "D06"} <= set(examine(zoo_trace("castray")).bugs)
 
@@ -97,6 +99,7 @@ def test_several_bugs_at_once_are_told_apart():
     assert set(diagnosis.bugs) == {"E01", "D01", "D10", "B12", "R01", "F01"}
 
 
+@pytest.mark.slow
 def test_which_bug_is_switched_on_is_not_looked_at():
     right, wrong = kept("room"), zoo_trace("D10")
     said = examine(wrong).as_dict()
@@ -106,6 +109,7 @@ def test_which_bug_is_switched_on_is_not_looked_at():
         assert not examine(replace(right, settings=replace(right.settings, bug=bug))).findings
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_a_law_without_its_columns_is_not_testable_and_says_which(kind):
     whole = kept("room")
@@ -173,6 +177,7 @@ def test_each_statistical_law_has_a_broken_twin(case):
     assert rule in fired(examine(changed(whole, place, change)))
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 @pytest.mark.parametrize("bug", MANY_PATHS)
 def test_a_bug_that_only_many_paths_show_is_named_first(bug):
@@ -208,6 +213,7 @@ def test_every_statistical_law_is_among_those_with_a_twin_or_a_bug():
     assert {rule.id for rule in statistics.RULES} == held
 
 
+@pytest.mark.slow
 def test_the_table_and_the_alarms_are_written_and_gone_on_with(tmp_path, monkeypatch):
     monkeypatch.setattr(doctor_paper, "KEPT", tmp_path)
     monkeypatch.setattr(doctor_paper, "commit", lambda: "abc1234")
