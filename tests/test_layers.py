@@ -41,6 +41,7 @@ FLOORS = {
     "tracer.engine": 5,
     "tracer.trace": 6,
     "tracer.doctor": 7,
+    "tracer.learner": 7,
     "tracer.testing": 8,
     "tracer": 8.5,
     "scenes": 0,

@@ -16,6 +16,7 @@ COMMANDS = {
     "doctor": "Hold the laws of light transport against a trace: what is wrong, where, and which mistake.",
     "query": "Find the paths of a recording that did something.",
     "diff": "Compare two pictures: is their difference more than noise?",
+    "check": "Run your own cast_ray and hold the laws of light transport against what it did.",
     "bsdf": "Put one material on the bench: its properties, albedo and Fresnel curves, and a plot.",
     "bench": "Measure run time against error: which estimator for this scene?",
     "export": "Write a scene as Mitsuba 3 XML, which castray and Mitsuba both read.",

@@ -79,7 +79,8 @@ def _said(finding):
             else f", depth {place['depth']}, event {place['step']} ({place['kind']})"
         )
         yield "first at", Text(f"pixel ({place['x']}, {place['y']}), sample {place['sample']}{event}")
-        yield "see it", Text(finding.command)
+        if finding.command:
+            yield "see it", Text(finding.command)
 
 
 def _title(bug):

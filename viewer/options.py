@@ -55,6 +55,12 @@ def path_options(name, without=(), size="default: the scene's"):
 _SHRUNK = f"default: the scene's, made smaller until its longer side is {SMALL_SIDE}"
 PathOptions = path_options("PathOptions")
 DoctorOptions = path_options("DoctorOptions", size=_SHRUNK)
+CheckOptions = path_options(  # without what the learner's own code decides
+    "CheckOptions",
+    ("integrator", "strategy", "heuristic", "light_sampling", "sampler", "replicates", "precision", "jitter",
+     "roulette", "max_depth", "bug"),
+    "default: 24 24",
+)  # fmt: skip
 BenchOptions = path_options(  # without what `castray bench` measures
     "BenchOptions",
     ("integrator", "strategy", "sampler", "replicates", "precision", "spp"),

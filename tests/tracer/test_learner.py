@@ -1,0 +1,163 @@
+"""A learner's own cast_ray in Python: judged as any trace, named by what it does wrong, and never trusted."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from suite import castray
+
+import tracer
+from tracer.learner import child, starter
+from tracer.learner.value import Vector, dot, known, named
+from viewer.commands.check import _settings, _together
+
+TEXT = Path(starter.__file__).read_text(encoding="utf-8")
+
+# What is changed in the starter, and the mistake that it makes of it.
+MISTAKES = {
+    "E01": ("return hit.emission if depth == 0 else 0.0", "return hit.emission"),
+    "E02": ("return hit.emission if depth == 0 else 0.0", "return 0.0"),
+    "D01": ("0.999 * length(towards)", "length(towards)"),
+    "D10": ("* f * cos * cos_light", "* f * cos_light"),
+    "D11": ("/ dot(towards, towards) /", "/ length(towards) /"),
+    "R01": ("/ pdf / SURVIVAL", "/ pdf"),
+    "R03": ("scene.random() < SURVIVAL", "scene.random() > SURVIVAL"),
+    "B02": ("* dot(n, wi) / pdf / SURVIVAL", "* dot(n, wi) / SURVIVAL"),
+}
+QUICK = ("E01", "D01", "R01")
+
+
+def judged(path, **more):
+    settings = _settings(None).as_dict() | {"width": 16, "height": 16, "spp": 8} | more
+    request = {"file": str(path), "scene": "cornell", "settings": settings}
+    return _together(*(tracer.examine(trace) for trace in child.run(request)))
+
+
+def written(tmp_path, text):
+    path = tmp_path / "my_tracer.py"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_the_starter_breaks_no_law(tmp_path):
+    assert judged(written(tmp_path, TEXT)).findings == ()
+
+
+@pytest.mark.parametrize(
+    "bug", [pytest.param(b, marks=() if b in QUICK else pytest.mark.slow) for b in MISTAKES]
+)
+def test_a_mistake_in_plain_code_is_named_first(tmp_path, bug):
+    right, wrong = MISTAKES[bug]
+    assert TEXT.count(right) == 1
+    found = judged(written(tmp_path, TEXT.replace(right, wrong)))
+    assert found.findings[0].bug == bug
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("indirect = cast_ray(", "indirect = 2.0 * cast_ray("),
+        ("cast_ray(scene, Ray(hit.p, wi), depth + 1)", "cast_ray(scene, Ray(light.p, wi), depth + 1)"),
+        ("direct = light.emission * f", "direct = 3.0 * light.emission * f"),
+    ],
+)
+def test_what_is_in_no_catalogue_is_found_all_the_same(tmp_path, right, wrong):
+    assert TEXT.count(right) == 1
+    assert judged(written(tmp_path, TEXT.replace(right, wrong))).findings
+
+
+@pytest.mark.slow
+@pytest.mark.statistical
+def test_the_starter_draws_what_castray_draws():
+    """Mean of the picture within 4 standard errors, which are 3 % of it; twice as bright is not."""
+    settings = _settings(None).as_dict() | {"width": 16, "height": 16, "spp": 16}
+    trace, _ = child.run({"file": starter.__file__, "scene": "cornell", "settings": settings})
+    found = trace.paths["radiance"].mean(axis=0)
+    error = found.std(ddof=1) / np.sqrt(found.size)
+    right = tracer.render(
+        tracer.load("cornell"), tracer.Settings(width=16, height=16, spp=1024, jitter=False)
+    )
+    right = right.rgb.mean(dtype=np.float64)
+    assert 4.0 * error < 0.5 * right
+    assert abs(found.mean() - right) < 4.0 * error < abs(2.0 * found.mean() - right)
+
+
+def test_values_remember_their_factors():
+    f, pdf = named("f", np.array([0.2, 0.4, 0.6])), named("pdf", 0.5)
+    n, wi = Vector(0, 0, 1), Vector(0, 0.6, 0.8)
+    found = 2.0 * f * max(dot(n, wi), 0.0) / pdf + 0.0
+    ((factor, powers),) = found.terms
+    assert factor == 2.0 and {(leaf.kind, power) for leaf, power in powers} == {
+        ("f", 1),
+        ("dot", 1),
+        ("pdf", -1),
+    }
+    assert np.allclose(found.value, 2.0 * np.array([0.2, 0.4, 0.6]) * 0.8 / 0.5)
+    assert (f / f).terms[0][1] == ()  # what cancels is gone
+    assert len((f + f * pdf).terms) == 2
+    assert known(0.0).terms == ()
+
+
+def test_a_random_number_remembers_with_what_it_was_compared():
+    u = named("random", 0.3)
+    assert u < 0.8
+    assert u.terms[0][1][0][0].of == {"against": 0.8, "outcome": True}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            "def cast_ray(scene, ray, depth):\n    return 1 / 0\n",
+            "my_tracer.py:2: in cast_ray: ZeroDivisionError",
+        ),
+        ("def cast_ray(scene ray):\n    pass\n", "my_tracer.py:1: invalid syntax"),
+        ("def cast_ray(scene, ray, depth):\n    return cast_ray(scene, ray, depth)\n", "roulette"),
+        ("def cast_ray(scene, ray, depth):\n    scene.intersect(ray)\n", "returned None"),
+        ("def castray(scene, ray, depth):\n    return 0\n", "no function cast_ray"),
+        ("import os\nos._exit(3)\n", "code 3"),
+        ("import sys\nsys.exit('enough')\n", "SystemExit: enough"),
+        ("def cast_ray(scene, ray, depth):\n    return (1, 2)\n", "colour of three"),
+        ("import no_such_thing\n", "no_such_thing"),
+    ],
+    ids=str,
+)
+@pytest.mark.slow
+def test_what_goes_wrong_in_the_file_is_one_line_with_its_place(tmp_path, text, said):
+    ran = castray("check", written(tmp_path, text), "--size", 4, 4, "--spp", 1, cwd=tmp_path)
+    assert ran.returncode == 2 and ran.stdout == ""
+    assert len(ran.stderr.splitlines()) == 1 and said in ran.stderr
+
+
+@pytest.mark.slow
+def test_a_loop_without_end_is_stopped(tmp_path):
+    ran = castray("check", written(tmp_path, "while True:\n    pass\n"), "--seconds", 2, cwd=tmp_path)
+    assert ran.returncode == 2 and "not done after 2 s" in ran.stderr
+
+
+@pytest.mark.slow
+def test_memory_without_end_is_stopped(tmp_path):
+    text = (
+        "def cast_ray(scene, ray, depth):\n    x = []\n    while True:\n        x += [bytearray(1 << 26)]\n"
+    )
+    ran = castray("check", written(tmp_path, text), "--size", 4, 4, "--spp", 1, cwd=tmp_path)
+    assert ran.returncode == 2 and "MemoryError" in ran.stderr
+
+
+@pytest.mark.slow
+def test_the_command_writes_a_starter_and_judges_it(tmp_path):
+    small = ("--size", 6, 6, "--spp", 2, "--json")
+    assert castray("check", "--new", "tracer.py", cwd=tmp_path).returncode == 0
+    ran = castray("check", "tracer.py", *small, cwd=tmp_path)  # whatever it is called
+    assert ran.returncode == 0 and json.loads(ran.stdout)["findings"] == []
+    again = castray("check", "--new", "tracer.py", cwd=tmp_path)
+    assert again.returncode == 2 and "already" in again.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", ["sky", "many_lights", "coloured_glass", "textures"])
+def test_a_scene_that_it_cannot_be_given_is_refused_in_one_line(tmp_path, scene):
+    ran = castray("check", written(tmp_path, TEXT), "--scene", scene, "--size", 4, 4, cwd=tmp_path)
+    assert ran.returncode == 2 and scene in ran.stderr and len(ran.stderr.splitlines()) == 1

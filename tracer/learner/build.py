@@ -1,0 +1,295 @@
+"""What a learner's cast_ray did, as a Trace.
+
+A call becomes a HIT, its light samples LIGHTs, the call within it a BOUNCE, the comparison of a random number
+before that a ROULETTE. What a term of the returned colour has as factors says what was used where: the term
+with a light sample's radiance is that sample's contribution, the one with the inner call's colour carries on.
+Where a term lacks a factor that belongs there, what that factor has to be stands in its place: the term
+is then judged as a whole, and the ratio of the recorded to the right one tells what is missing. Of light
+samples that bring nothing no factor is seen; so there are two traces: one with all light samples, to judge
+how they were chosen and whether they are seen, and one with those that bring something, to judge what.
+"""
+
+from collections import Counter, defaultdict
+from dataclasses import replace
+
+import numpy as np
+
+from tracer.events import BOUNCE, CAMERA, END, END_REASONS, ESCAPE, HIT, KINDS, LIGHT, ROULETTE
+from tracer.learner.value import Vector, dot
+from tracer.trace.trace import Table, Trace
+
+_AREA = LIGHT.field("technique").choices.index("area")
+_REASON = END_REASONS.index
+_SURE = 1e-6  # how far vectors may be apart that are meant to be one
+
+
+class Builder:
+    """Collects paths; `trace` gives them all."""
+
+    def __init__(self, world, settings):
+        self.scene, self.settings, self._lamp_area = world.scene, settings, world.lamp_area
+        self._rows = {kind.name: [] for kind in KINDS}
+        self._paths = []
+        self._going = Counter()  # outcomes of the comparisons after which a call followed
+        self._stopped = []  # (outcome, number of the path, fields of its ROULETTE and its END)
+
+    def add(self, x, y, sample, film, call):
+        """One path: the outermost Call."""
+        self._path, self._step = len(self._paths), 0
+        ones, direction = np.ones(3), call.ray.direction.plain
+        self._put(CAMERA, 0, film=film, o=call.ray.origin.plain, d=direction, beta=ones)
+        end, vertices = self._call(call, ones, np.inf)
+        radiance = call.returned.value
+        self._put(END, max(vertices - 1, 0), reason=_REASON(end), radiance=radiance)
+        self._paths.append([x, y, sample, film, radiance, _REASON(end), vertices])
+
+    def _put(self, kind, depth, **fields):
+        self._rows[kind.name].append((self._path, self._step, depth, fields))
+        self._step += 1
+        return fields
+
+    def _call(self, call, beta, pdf):
+        """The events of a call and of those within it; how the path ended, and how many vertices it has.
+
+        pdf: density of the bounce that led to it.
+        """
+        terms = _Terms(call)
+        if call.hit is None:
+            zero = np.zeros(3)
+            self._put(ESCAPE, call.depth, d=call.ray.direction.plain, Le=zero, w=0.0, contribution=zero)
+            return "escaped", 0
+        self._wo = -call.ray.direction
+        self._hit(call, beta, pdf, terms)
+        for sample in call.lights:
+            self._light(call, beta, terms, sample)
+        roll = _rolled(call)
+        if not call.children:
+            if roll is not None:
+                fields = self._roll(call, beta, roll, False)
+                self._stopped.append((roll.of["outcome"], self._path, fields))
+            return _end_of(call), 1
+        child = call.children[0]
+        after = beta * terms.factor(child)
+        right = self._bounce(call, child, terms.of_child(child), beta)
+        q = roll.of["against"] if roll is not None else 1.0
+        forgotten = np.allclose(after, right, rtol=_SURE, atol=0.0)  # 1/q, but nothing else
+        bounce = self._rows[BOUNCE.name][-1][-1]
+        bounce["beta"] = after if forgotten else after * q
+        if roll is not None:
+            self._going[roll.of["outcome"]] += 1
+            self._roll(call, after, roll, True)
+        end, vertices = self._call(child, after, bounce["pdf"])
+        return end, vertices + 1
+
+    def _hit(self, call, beta, pdf, terms):
+        hit = call.hit
+        Le = np.broadcast_to(hit.emission.value, (3,))
+        contribution = beta * terms.emission()
+        given = float(np.max(contribution) > 0.0)
+        cos = abs(dot(call.ray.direction, hit.n).value)
+        pdf_light = hit.t * hit.t / (cos * self._lamp_area) if Le.any() and cos > 0.0 else 0.0
+        self._put(
+            HIT,
+            call.depth,
+            p=hit.p.plain,
+            t=hit.t,
+            primitive=hit.primitive,
+            ng=hit.n.plain,
+            n=hit.n.plain,
+            wo=-call.ray.direction.plain,
+            front=hit.front,
+            beta=beta,
+            Le=Le,
+            pdf_bsdf=pdf,
+            pdf_light=pdf_light,
+            w=given if Le.any() else 1.0,
+            contribution=contribution,
+        )
+
+    def _light(self, call, beta, terms, sample):
+        away = sample.p.plain - call.hit.p.plain
+        distance = np.linalg.norm(away)
+        wi = away / max(distance, np.finfo(float).tiny)
+        used, value = terms.of_light(sample)
+        if not call.hit.front and not value.any():
+            return  # none is due at the back of a surface, and none was used
+        cos_light = float(-wi @ sample.n.plain)
+        cos = float(wi @ call.hit.n.plain)
+        pdf_area = float(sample.pdf.value)
+        self._put(
+            LIGHT,
+            call.depth,
+            light=self.scene.light_of[sample.primitive],
+            primitive=sample.primitive,
+            pick=1.0 if len(self.scene.light_names) == 1 else None,
+            technique=_AREA,
+            q=sample.p.plain,
+            nq=sample.n.plain,
+            wi=wi,
+            distance=distance,
+            Le=sample.emission.value * (cos_light > 0.0),
+            pdf=pdf_area * distance * distance / cos_light if cos_light > 0.0 else 0.0,
+            f=_used_or_right(used, "f", lambda: self._f(call.hit, wi)),
+            cos=_or(_cosine(used, call.hit.n), abs(cos)),
+            w=float(value.any() or cos > 0.0),  # 0 where nothing can arrive
+            beta=beta,
+            visible=bool(value.any()),
+            contribution=beta * value,
+        )
+
+    def _bounce(self, call, child, used, beta):
+        """The BOUNCE to the inner call, its `beta` still to come; what that would be by f, cos and pdf."""
+        wi = child.ray.direction
+        f = _used_or_right(used, "f", lambda: self._f(call.hit, wi.plain))
+        pdf = _used_or_right(
+            used, "pdf", lambda: call.hit.material.pdf(wi, -call.ray.direction, call.hit.n).value
+        )
+        cos = _or(_cosine(used, call.hit.n), abs(dot(wi, call.hit.n).value))
+        self._put(
+            BOUNCE, call.depth, wi=wi.plain, f=f, pdf=pdf, cos=cos, delta=False, beta_before=beta, beta=None
+        )
+        with np.errstate(all="ignore"):
+            return beta * f * cos / pdf
+
+    def _f(self, hit, wi):
+        """What the BSDF has to be there."""
+        return hit.material.eval(Vector(*wi), self._wo, hit.n).value
+
+    def _roll(self, call, beta, roll, survived):
+        return self._put(
+            ROULETTE, call.depth, probability=roll.of["against"], u=roll.value, survived=survived, beta=beta
+        )
+
+    def traces(self):
+        """The Trace of all paths with all light samples, and with those only that bring something."""
+        self._settle()
+        columns = list(zip(*self._paths, strict=True))
+        names = ("x", "y", "sample", "film", "radiance", "end", "vertices")
+        paths = {name: np.array(column).T for name, column in zip(names, columns, strict=True)}
+        rows = {name: [*of_kind] for name, of_kind in self._rows.items()}
+        used = [row for row in rows[LIGHT.name] if row[-1]["visible"]]
+        chosen = [(*at, {**fields, "f": None}) for *at, fields in rows[LIGHT.name]]
+        settings = self._declared()
+        for lights in (chosen, used):
+            tables = {kind.name: _table(kind, rows[kind.name]) for kind in KINDS}
+            tables[LIGHT.name] = _table(LIGHT, lights)
+            yield Trace(self.scene, settings, paths, tables, float(np.finfo(np.float64).eps))
+
+    def _declared(self):
+        """The settings, with the survival probability that was used if it is one, and the kind of loop."""
+        used = {float(fields["probability"]) for *_, fields in self._rows[ROULETTE.name]}
+        roulette = self.settings.roulette
+        if len(used) <= 1:
+            roulette = next((f"{q:.17g}" for q in used if 0.0 < q <= 1.0), "off")
+        integrator = "direct" if self._rows[LIGHT.name] else "walk"
+        return replace(self.settings, roulette=roulette, integrator=integrator)
+
+    def _settle(self):
+        """Who did not go on after the outcome with which others go on, did so for another reason."""
+        if self._going:
+            goes_on = self._going.most_common(1)[0][0]
+            for outcome, path, fields in self._stopped:
+                if outcome == goes_on:
+                    fields.update(survived=True, beta=fields["beta"] / fields["probability"])
+                    self._rows[END.name][path][-1]["reason"] = self._paths[path][5] = _REASON("absorbed")
+
+
+class _Terms:
+    """The terms of what a call returned, by what they carry."""
+
+    def __init__(self, call):
+        self._emission, self._light, self._child = [], defaultdict(list), defaultdict(list)
+        for factor, powers in call.returned.terms:
+            kinds = {leaf.kind: leaf for leaf, power in powers if power > 0}
+            if "child" in kinds:
+                self._child[id(kinds["child"].of["call"])].append((factor, powers))
+            elif "Le" in kinds and "light" in kinds["Le"].of:
+                self._light[id(kinds["Le"].of["light"])].append((factor, powers))
+            else:
+                self._emission.append((factor, powers))
+
+    def emission(self):
+        """What comes from the surface itself, or from nowhere known, (3,)."""
+        return sum((_worth(*term) for term in self._emission), np.zeros(3))
+
+    def of_light(self, sample):
+        """Leaves of a light sample's terms, and what they bring, (3,)."""
+        terms = self._light[id(sample)]
+        leaves = [leaf for _, powers in terms for leaf, _ in powers]
+        return leaves, sum((_worth(*term) for term in terms), np.zeros(3))
+
+    def of_child(self, child):
+        """Leaves of an inner call's terms."""
+        return [leaf for _, powers in self._child[id(child)] for leaf, _ in powers if leaf.kind != "child"]
+
+    def factor(self, child):
+        """What an inner call's colour was multiplied with, (3,)."""
+        terms = self._child[id(child)]
+        return sum((_worth(factor, powers, but="child") for factor, powers in terms), np.zeros(3))
+
+
+def _worth(factor, powers, but=""):
+    """A term's value (3,), without leaves of the kind `but`."""
+    found = np.ones(3) * factor
+    with np.errstate(all="ignore"):
+        for leaf, power in powers:
+            if leaf.kind != but:
+                found = found * np.asarray(leaf.value, np.float64) ** power
+    return found
+
+
+def _only(leaves, kind):
+    """The one leaf of a kind, None where there is none or there are several."""
+    found = {id(leaf): leaf for leaf in leaves if leaf.kind == kind}
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def _cosine(leaves, n):
+    """The one dot product with the vertex's normal, None where there is none."""
+    found = {
+        id(leaf): leaf
+        for leaf in leaves
+        if leaf.kind == "dot" and any(_same(leaf.of[side], n) for side in ("a", "b"))
+    }
+    return next(iter(found.values())).value if len(found) == 1 else None
+
+
+def _same(a, b):
+    """Whether two vectors are one, or opposite."""
+    return abs(abs(dot(a, b).value) - 1.0) < _SURE
+
+
+def _rolled(call):
+    """The random number that decided on going on: the last that was compared with anything; None if none."""
+    return next((leaf for leaf in reversed(call.randoms) if "against" in leaf.of), None)
+
+
+def _end_of(call):
+    """Why no call followed."""
+    if _rolled(call) is not None:
+        return "roulette"
+    return "black" if call.hit.emission else "absorbed"
+
+
+def _used_or_right(leaves, kind, right):
+    """The value of the one leaf of a kind; where there is none, what it has to be."""
+    leaf = _only(leaves, kind)
+    return right() if leaf is None else leaf.value
+
+
+def _or(value, other):
+    return other if value is None else value
+
+
+def _table(kind, rows):
+    """One table of rows (path, step, depth, fields), without the fields that some row lacks."""
+    names = [f for f in kind.fields if all(fields.get(f.name) is not None for *_, fields in rows)]
+    columns = {}
+    for f in names if rows else [f for f in kind.fields if f.carried]:
+        if not rows:
+            columns[f.name] = np.empty((*f.shape, 0))
+            continue
+        values = [np.broadcast_to(fields[f.name], f.shape) for *_, fields in rows]
+        columns[f.name] = np.stack(values, axis=-1)
+    path, step, depth = (np.array([row[k] for row in rows], np.int64) for k in range(3))
+    return Table(path, step, depth, columns)

@@ -1,0 +1,86 @@
+"""Runs a learner's cast_ray and keeps, for every call, what it was given and what it returned.
+
+The call itself is wrapped, so nested calls are seen; what it returns is taken apart into its terms.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tracer.learner.value import Value, known, named
+from tracer.learner.world import Ray, World
+
+MOST_DEPTH = 200  # calls within calls, beyond which a recursion is taken for endless
+
+
+class Runaway(Exception):
+    """A recursion that does not end."""
+
+
+@dataclass
+class Call:
+    """One call of cast_ray."""
+
+    ray: Ray
+    depth: int  # calls around it
+    asked_depth: Any  # what it was told
+    hit: Any = None  # the Hit of its own ray
+    rays: list = field(default_factory=list)  # asked of the scene
+    lights: list = field(default_factory=list)  # LightSamples
+    randoms: list = field(default_factory=list)  # leaves
+    children: list = field(default_factory=list)  # Calls
+    returned: Any = None  # Value
+
+
+class Runner:
+    """A learner's cast_ray on a scene."""
+
+    def __init__(self, scene, module):
+        self.world, self._inner, self._stack = World(scene), module.cast_ray, []
+        module.cast_ray = self._traced  # so that it calls itself through here
+
+    def path(self, origin, direction, pixel, sample, seed):
+        """The Call of a path and all within it."""
+        self.world.start(pixel, sample, seed)
+        self._stack = []
+        self._traced(self.world, Ray(origin, direction), 0)
+        return self._first
+
+    def _traced(self, scene, ray, depth=0, *more):
+        """cast_ray with its call kept."""
+        call = Call(ray, len(self._stack), depth)
+        if len(self._stack) >= MOST_DEPTH:
+            raise Runaway(
+                f"cast_ray called itself {MOST_DEPTH} times without an end: is its roulette played, "
+                "and does it stop where a ray meets nothing?"
+            )
+        if self._stack:
+            self._stack[-1].children.append(call)
+        else:
+            self._first = call
+        self._stack.append(call)
+        self.world.log = call
+        try:
+            call.returned = colour(self._inner(self.world, ray, depth, *more))
+        finally:
+            self._stack.pop()
+            self.world.log = self._stack[-1] if self._stack else None
+        return named("child", call.returned.value, call=call)
+
+
+def colour(returned):
+    """What cast_ray returned, as a Value (3,). Raises TypeError with what would do."""
+    if returned is None:
+        raise TypeError(
+            "cast_ray returned None: it has to return a colour on every way out, (0, 0, 0) for none"
+        )
+    found = known(returned)
+    value = np.broadcast_to(np.asarray(found.value, np.float64), (3,))
+    return Value(value, found.terms)
+
+
+def pixels_of(width, height, every):
+    """Numbers (P,) of every `every`-th pixel in x and y, line by line."""
+    y, x = np.mgrid[every // 2 : height : every, every // 2 : width : every]
+    return (y * width + x).ravel()

@@ -1,0 +1,77 @@
+"""Runs a learner's file in a process of its own, with limits of time, memory and depth."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+import tracer.learner.child as child
+from tracer.events import KINDS
+from tracer.scene_file.load import load
+from tracer.settings import Settings, TracerError
+from tracer.trace.trace import Table, Trace
+
+
+def run(path, scene, settings, seconds=300.0):
+    """The Traces of a learner's cast_ray on a scene (a file or name): of all light samples, and of those only
+    that bring something (see build).
+
+    Raises TracerError with the learner's file and line where it fails, or says what it exceeded.
+    """
+    path = Path(path).resolve()
+    if not path.is_file():
+        raise TracerError(
+            f"{path.name}: there is no such file; castray check --new {path.name} writes a starter"
+        )
+    with tempfile.TemporaryDirectory() as folder:
+        names = [str(Path(folder) / f"trace{k}.npz") for k in range(2)]
+        answer = Path(folder) / "answer.json"
+        request = {
+            "file": str(path),
+            "scene": scene,
+            "settings": settings.as_dict(),
+            "traces": names,
+            "answer": str(answer),
+        }
+        asked = Path(folder) / "request.json"
+        asked.write_text(json.dumps(request), encoding="utf-8")
+        ended = _ended(asked, seconds, path)
+        if not answer.is_file():
+            raise TracerError(
+                f"{path.name}: its process ended with code {ended}; "
+                f"it may take {child.MEMORY >> 30} GiB of memory"
+            )
+        told = json.loads(answer.read_text(encoding="utf-8"))
+        if "error" in told:
+            raise TracerError(told["error"])
+        found = Settings(**told["settings"])
+        return tuple(_read(name, load(scene).at(found), found) for name in names)
+
+
+def _ended(asked, seconds, path):
+    """The code with which the child ended."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    try:
+        return subprocess.run(
+            [sys.executable, "-m", child.__name__, str(asked)], timeout=seconds, env=environment, check=False
+        ).returncode
+    except subprocess.TimeoutExpired:
+        raise TracerError(
+            f"{path.name}: not done after {seconds:g} s; does a loop never end? "
+            "Otherwise give it fewer paths (--size, --spp) or more time (--seconds)"
+        ) from None
+
+
+def _read(name, scene, settings):
+    with np.load(name, allow_pickle=False) as found:
+        columns = dict(found)
+    tables = {}
+    for kind in (k.name for k in KINDS):
+        own = {key.partition(".")[2]: c for key, c in columns.items() if key.startswith(f"{kind}.")}
+        tables[kind] = Table(columns[f"{kind}/path"], columns[f"{kind}/step"], columns[f"{kind}/depth"], own)
+    paths = {key.partition(".")[2]: c for key, c in columns.items() if key.startswith("path.")}
+    return Trace(scene, settings, paths, tables, float(np.finfo(np.float64).eps))

@@ -1,0 +1,224 @@
+"""Numbers that remember which factors they were made of.
+
+A value is a sum of terms, a term a number times powers of leaves: an f that a material gave, a cosine, a
+density, a radiance. Sums, products and quotients by a single term keep that; whatever else is done to a value
+gives a plain float, of which nothing is known but how large it is.
+"""
+
+import numpy as np
+
+
+class Leaf:
+    """One number or colour that was handed out, and what it is."""
+
+    __slots__ = ("kind", "of", "value")
+
+    def __init__(self, kind, value, **of):
+        self.kind, self.value, self.of = kind, value, of
+
+
+class Value:
+    """A number or colour (3,) as a sum of terms (plain factor, ((leaf, power), ...))."""
+
+    __slots__ = ("terms", "value")
+    __array_ufunc__ = None  # NumPy's arrays leave arithmetic with a value to the value
+
+    def __init__(self, value, terms):
+        self.value, self.terms = value, terms
+
+    def __add__(self, other):
+        other = known(other)
+        return Value(self.value + other.value, self.terms + other.terms)
+
+    __radd__ = __add__
+
+    def __neg__(self):
+        return -1.0 * self
+
+    def __sub__(self, other):
+        return self + -1.0 * known(other)
+
+    def __rsub__(self, other):
+        return known(other) - self
+
+    def __mul__(self, other):
+        if isinstance(other, Vector):
+            return other * float(self)
+        other = known(other)
+        terms = tuple((a * b, _joined(p, q)) for a, p in self.terms for b, q in other.terms)
+        return Value(self.value * other.value, terms)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other):
+        other = known(other)
+        with np.errstate(all="ignore"):  # who divides by 0 gets infinity or NaN, and the doctor sees it
+            if len(other.terms) == 1:
+                ((factor, powers),) = other.terms
+                inverse = Value(np.divide(1.0, other.value), ((np.divide(1.0, factor), _inverse(powers)),))
+            else:
+                inverse = named("number", np.divide(1.0, other.value))
+            return self * inverse
+
+    def __rtruediv__(self, other):
+        return known(other) / self
+
+    def __pow__(self, power):
+        if isinstance(power, int) and 0 < power < 9:
+            found = self
+            for _ in range(power - 1):
+                found = found * self
+            return found
+        return float(self) ** power
+
+    def __abs__(self):
+        return -self if self.value < 0.0 else self
+
+    def __float__(self):
+        return float(self.value)
+
+    def __bool__(self):
+        return bool(np.any(self.value != 0.0))
+
+    def __lt__(self, other):
+        return self._compared(other, lambda a, b: a < b)
+
+    def __le__(self, other):
+        return self._compared(other, lambda a, b: a <= b)
+
+    def __gt__(self, other):
+        return self._compared(other, lambda a, b: a > b)
+
+    def __ge__(self, other):
+        return self._compared(other, lambda a, b: a >= b)
+
+    def _compared(self, other, way):
+        """The comparison; a random number remembers with what it was compared, and how that went."""
+        plain = plain_of(other)
+        answer = bool(way(self.value, plain))
+        for _, powers in self.terms:
+            if len(powers) == 1 and powers[0][0].kind == "random":
+                powers[0][0].of.update(against=float(plain), outcome=answer)
+        return answer
+
+    @property
+    def r(self):
+        """The red channel."""
+        return named("number", self.value[0])
+
+    @property
+    def g(self):
+        """The green channel."""
+        return named("number", self.value[1])
+
+    @property
+    def b(self):
+        """The blue channel."""
+        return named("number", self.value[2])
+
+    def __repr__(self):
+        return repr(self.value)
+
+
+class Vector:
+    """A point or direction: x, y, z. Sums, differences, multiples; `*` of two is component by component."""
+
+    __slots__ = ("x", "y", "z")
+    __array_ufunc__ = None
+
+    def __init__(self, x, y, z):
+        self.x, self.y, self.z = float(x), float(y), float(z)
+
+    def __iter__(self):
+        return iter((self.x, self.y, self.z))
+
+    def __add__(self, other):
+        return Vector(self.x + other.x, self.y + other.y, self.z + other.z)
+
+    def __sub__(self, other):
+        return Vector(self.x - other.x, self.y - other.y, self.z - other.z)
+
+    def __neg__(self):
+        return Vector(-self.x, -self.y, -self.z)
+
+    def __mul__(self, other):
+        if isinstance(other, Vector):
+            return Vector(self.x * other.x, self.y * other.y, self.z * other.z)
+        other = float(other)
+        return Vector(self.x * other, self.y * other, self.z * other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other):
+        return self * (1.0 / float(other))
+
+    def __repr__(self):
+        return f"Vector({self.x!r}, {self.y!r}, {self.z!r})"
+
+    @property
+    def plain(self):
+        """(3,) array."""
+        return np.array((self.x, self.y, self.z))
+
+
+class Point(Vector):
+    """A point on a surface, which remembers on which flat face it lies."""
+
+    __slots__ = ("face",)
+
+    def __init__(self, p, face):
+        super().__init__(*p)
+        self.face = face
+
+
+def named(kind, value, **of):
+    """A value that is one leaf."""
+    return Value(value, ((1.0, ((Leaf(kind, value, **of), 1),)),))
+
+
+def known(other):
+    """A Value as it is; a plain number or colour as a Value without leaves."""
+    if isinstance(other, Value):
+        return other
+    if isinstance(other, (int, float)):
+        return Value(float(other), ((float(other), ()),) if other else ())
+    plain = np.asarray(tuple(other) if isinstance(other, Vector) else other, np.float64)
+    if plain.shape not in ((), (3,)):
+        raise TypeError(f"a number or a colour of three is needed here, not shape {plain.shape}")
+    return Value(plain, ((plain, ()),) if plain.any() else ())
+
+
+def plain_of(value):
+    """The number or colour without what it remembers."""
+    return value.value if isinstance(value, Value) else value
+
+
+def dot(a, b):
+    """Dot product of two vectors, which remembers both."""
+    return named("dot", a.x * b.x + a.y * b.y + a.z * b.z, a=a, b=b)
+
+
+def cross(a, b):
+    """Cross product of two vectors."""
+    return Vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+
+
+def length(a):
+    """Length of a vector, which remembers it."""
+    return named("length", float(np.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)), a=a)
+
+
+def normalize(a):
+    """A vector of length 1 in the same direction."""
+    return a / length(a).value
+
+
+def _joined(p, q):
+    found = dict(p)
+    for leaf, power in q:
+        found[leaf] = found.get(leaf, 0) + power
+    return tuple((leaf, power) for leaf, power in found.items() if power)
+
+
+def _inverse(powers):
+    return tuple((leaf, -power) for leaf, power in powers)
