@@ -76,7 +76,7 @@ def text(rows):
         f"Each bug in its own scene and settings, the longer side {SIDE} pixels, {SPP} spp, at commit "
         f"{commit()}. Of {len(shown)} bugs {some} are found and {first} named first "
         f"({first / max(len(shown), 1):.0%}), up to what no trace tells apart ({classes}). The abandoned "
-        f"castRay is right if E01, D01 and D06 are all named, and D08, D15, B14, B15 may be, which it has too. "
+        f"castRay is right if E01, D01 and D06 are named; D08, D15, B14 and B15, which it has, may be. "
         f"Judging took up to {slow:.0f} s.\n\n"
         "| bug | | law that fires first | events, or chance | named | rank | s |\n"
         "|---|---|---|---|---|---|---|\n"

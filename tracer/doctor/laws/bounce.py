@@ -33,7 +33,7 @@ def _dirac(evidence):
     rows = np.flatnonzero(evidence("bounce.delta"))
     off = evidence.off_unit
     inputs = {
-        "p": (evidence.at_vertex("bounce", "p")[:, rows], 0.0),
+        "p": (evidence.at_vertex("bounce", "p")[:, rows], evidence.off_point),
         "n": (evidence.at_vertex("bounce", "n")[:, rows], off),
         "wo": (evidence.at_vertex("bounce", "wo")[:, rows], off),
         "primitive": (evidence.at_vertex("bounce", "primitive")[rows], 0.0),
