@@ -86,11 +86,20 @@ def main():
     words.add_argument("--out", type=Path, default=PAPER)
     asked = words.parse_args()
     done = kept("alarms")
-    paths = dict.fromkeys(asked.scenes, 0)
-    for key, scene, settings in plan(asked.scenes):
-        if min(paths.values()) >= asked.paths:
+    try:
+        measure(asked.scenes, asked.paths, done)
+    finally:
+        if done:
+            write("alarms", text([row for row in done.values() if row["scene"] in asked.scenes]), asked.out)
+
+
+def measure(scenes, most, done):
+    """Put rows into `done` until each scene has `most` paths."""
+    paths = dict.fromkeys(scenes, 0)
+    for key, scene, settings in plan(scenes):
+        if min(paths.values()) >= most:
             break
-        if paths[scene] >= asked.paths:
+        if paths[scene] >= most:
             continue
         if key not in done:
             done[key] = measured(key, scene, settings)
@@ -98,11 +107,10 @@ def main():
             if done[key]["single"] or done[key]["many"]:
                 print(f"{key}: {done[key]['single']} {done[key]['many']}", flush=True)
         paths[scene] += done[key]["paths"]
-    write("alarms", text([row for row in done.values() if row["scene"] in asked.scenes]), asked.out)
 
 
 if __name__ == "__main__":
     try:
         main()
     except KeyboardInterrupt:
-        sys.exit("stopped; what is done is kept")
+        sys.exit("stopped; what is done is in the paper")

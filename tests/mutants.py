@@ -15,6 +15,7 @@ TRACES = {
     "sky": ("sky", {}),
     "smooth": ("smooth_ball", {}),
     "lamps": ("many_lights", {}),
+    "glossy": ("materials", {}),
 }
 
 
