@@ -110,8 +110,8 @@ def test_every_file_a_paper_names_is_there():
 
 
 def test_the_make_targets_named_are_there():
-    targets = re.findall(r"^(\w+):", text("Makefile"), re.MULTILINE)
-    named = {word for name in PAPERS for word in re.findall(r"[`\n]make (\w+)", text(name))}
+    targets = re.findall(r"^([\w-]+):", text("Makefile"), re.MULTILINE)
+    named = {word for name in PAPERS for word in re.findall(r"[`\n]make ([\w-]+)", text(name))}
     assert named <= set(targets)
 
 
