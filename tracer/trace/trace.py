@@ -38,7 +38,8 @@ class Trace:
 
     paths: name -> (..., P) column: x, y, sample, film (2), radiance (3), end (number in events.END_REASONS),
     vertices. tables: name of a kind -> Table, for each of events.KINDS. eps: relative precision of the
-    numbers: the machine epsilon of the loop's, or half a unit of the last printed digit.
+    numbers: the machine epsilon of the loop's, or half a unit of the last printed digit. rebuilt: fields,
+    "kind.field", that were not recorded but worked out from others and the scene: they prove nothing.
     """
 
     scene: Any  # a Scene, in the precision of the settings
@@ -46,6 +47,7 @@ class Trace:
     paths: dict
     tables: dict
     eps: float
+    rebuilt: frozenset = frozenset()
 
     @property
     def size(self):

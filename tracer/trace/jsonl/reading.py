@@ -1,0 +1,261 @@
+"""Logs of other tracers become Traces."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tracer.events import KINDS
+from tracer.settings import TracerError
+from tracer.trace.jsonl import calls, conventions, geometry, header, lines, told
+from tracer.trace.trace import Table, Trace
+
+_UNIFORM = 0.5 / np.pi
+
+
+@dataclass(frozen=True)
+class Log:
+    """What a file holds. trace: a Trace, None if no scene was given; notes: what was found out beside the
+    mistakes, in words; read_off: settings that were not declared but could be told from the numbers."""
+
+    read: lines.Read
+    trace: Trace | None
+    notes: tuple
+    read_off: dict
+
+    @property
+    def mistakes(self):
+        """The first Mistakes of the file."""
+        return tuple(self.read.mistakes)
+
+
+def read_log(path, scene=None, options=None):
+    """The Log in a JSON Lines file, its trace made with a Scene. options: Settings that count more than those
+    that the file declares. TracerError, one line, where nothing can be made of the file."""
+    read = lines.read(path, _tables(scene))
+    if options:
+        read.header.options.update(options)
+    read_off = _read_off(read)
+    settings = header.settings_of(read.header, read_off)
+    notes = _notes(read)
+    if scene is None:
+        return Log(read, None, tuple(notes), read_off)
+    if settings.width is None or settings.height is None:
+        settings = replace(settings, width=scene.width, height=scene.height)
+    exact = scene.at(replace(settings, precision=64))
+    notes += conventions.complaints(read.columns, read.header, exact)
+    conventions.convert(read.columns, read.header, exact)
+    make = _of_calls if None in read.columns else _of_events
+    trace, more = make(read, scene.at(settings), exact, settings)
+    if not trace.size:
+        raise TracerError(f"{path}: no path is whole; {'; '.join(more)}")
+    return Log(read, trace, tuple(notes + more), read_off)
+
+
+def _tables(scene):
+    if scene is None:
+        return {}
+    return {
+        "shape": [shape.name for shape in scene.shapes],
+        "bsdf": list(scene.bsdf_names),
+        "light": list(scene.light_names),
+        "primitive": scene.shape_of.size,
+    }
+
+
+def _notes(read):
+    notes = [
+        f"{name!r:.40} is no field of this format and is left out (first in line {line})"
+        for name, line in read.unknown.items()
+    ]
+    if read.cut:
+        notes.append("the last line ends in its middle: it is left out")
+    return notes
+
+
+def _column(read, kind, name):
+    for key, full in ((kind, name), (None, f"{kind}.{name}")):
+        if key in read.columns and full in read.columns[key].values:
+            found = read.columns[key]
+            return found.values[full][..., found.given[full]].astype(np.float64)
+    return np.empty(0)
+
+
+def _read_off(read):
+    """Settings that the numbers show."""
+    found = {}
+    q = _column(read, "roulette", "probability")
+    q = q[np.isfinite(q)]
+    if q.size and 0.0 < q[0] <= 1.0 and np.ptp(q) <= 4.0 * read.header.eps:
+        found["roulette"] = f"{q[0]:.6g}"
+    elif not q.size and read.header.options.get("roulette") is None:
+        found |= {"roulette": "off", "max_depth": 2**28}
+    pdf = _column(read, "bounce", "pdf")
+    if pdf.size and np.mean(np.abs(pdf - _UNIFORM) <= 1e-4) > 0.9:
+        found["hemisphere"] = "uniform"
+    if _column(read, "light", "pdf_area").size:
+        found["light_sampling"] = "area"
+    lit = any(name.startswith(("light.", "direct")) for name in getattr(read.columns.get(None), "values", ()))
+    if not lit and "light" not in read.columns:
+        found["integrator"] = "walk"
+    return {name: value for name, value in found.items() if name not in read.header.options}
+
+
+def _of_calls(read, scene, exact, settings):
+    chain = calls.chained(read.columns.pop(None))
+    if not chain.path.size:
+        return Trace(scene, settings, {"x": np.empty(0)}, {}, read.header.eps), chain.notes
+    places = calls.placed(chain, exact)
+    if read.header.turned["n"] == "facing":
+        real, _ = geometry.surfaces(exact, places.p, places.d, places.primitive)
+        places.n *= np.where((places.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
+        places.ng = np.where(np.isfinite(real), real, places.ng)
+    notes = list(conventions.complaints_of_scene(chain, places, exact, settings, read.header))
+    chain, places = told.peeked(chain, places, exact)
+    known = settings.roulette != "off" or "roulette" in read.header.options
+    telling = told.Telling(chain, places, exact, settings, read.header.eps, known)
+    tables = telling.tables()
+    root = telling.rows["camera"]
+    paths = _paths(tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size)
+    tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
+    rebuilt = frozenset(telling.rebuilt)
+    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps, rebuilt), [*chain.notes, *notes]
+
+
+def _value(columns, name, rows):
+    if name not in columns.values:
+        return np.arange(rows.size) if name == "sample" else np.zeros(rows.size, np.int64)
+    return columns.values[name][rows].astype(np.int64)
+
+
+def _paths(tables, place, size):
+    """Columns of the table of paths; radiance and end as END has them, radiance else as the sum of terms."""
+    end = tables["end"]
+    paths = dict(place)
+    film = tables["camera"]["film"]
+    if film is not None:
+        paths["film"] = film
+    if end["radiance"] is not None:
+        paths["radiance"] = end["radiance"]
+    elif all(tables[kind]["contribution"] is not None for kind in ("hit", "light", "escape") if tables[kind].path.size):
+        total = np.zeros((3, size))
+        for kind in ("hit", "light", "escape"):
+            for channel in range(3):
+                if tables[kind].path.size:
+                    gain = tables[kind]["contribution"][channel]
+                    total[channel] += np.bincount(tables[kind].path, gain, size)
+        paths["radiance"] = total
+        end.columns["radiance"] = total
+    if end["reason"] is not None:
+        paths["end"] = end["reason"]
+    paths["vertices"] = np.bincount(tables["hit"].path, minlength=size)
+    for name in ("reason", "radiance"):
+        if end[name] is None:
+            end.columns.pop(name, None)
+    return paths
+
+
+_WHOLE = {
+    (kind.name, f.name)
+    for kind in KINDS
+    for f in kind.fields
+    if f.domain in ("index", "shape", "bsdf", "light", "choice")
+}
+_FLAGS = {(kind.name, f.name) for kind in KINDS for f in kind.fields if f.domain == "flag"}
+
+
+def _compact(table, dtype):
+    return replace(table, columns=_small(table.columns, dtype))
+
+
+def _small(columns, dtype):
+    """The columns in the precision of the settings, whole numbers and flags as such."""
+    whole = {name for _, name in _WHOLE} | {"x", "y", "sample", "end", "vertices"}
+    flags = {name for _, name in _FLAGS}
+
+    def small(name, column):
+        if name in whole:
+            return column.astype(np.int64 if name != "primitive" else np.int32)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return column.astype(bool) if name in flags else column.astype(dtype)
+
+    return {name: small(name, column) for name, column in columns.items()}
+
+
+def _of_events(read, scene, exact, settings):
+    """The Trace of lines that are events already."""
+    keys = [_keys(found) for found in read.columns.values()]
+    kinds = list(read.columns)
+    _, first, number = np.unique(np.concatenate(keys), return_index=True, return_inverse=True)
+    splits = np.cumsum([key.size for key in keys])[:-1]
+    of_kind = dict(zip(kinds, np.split(number, splits), strict=True))
+    place = {
+        name: np.concatenate([_all(read.columns[kind], name) for kind in kinds])[first]
+        for name in ("x", "y", "sample")
+    }
+    steps = _steps(read.columns, of_kind)
+    tables = {}
+    for kind in (k.name for k in KINDS):
+        if kind not in read.columns:
+            none = np.empty(0, np.int64)
+            tables[kind] = Table(none, none, none, {})
+            continue
+        found, path, step = read.columns[kind], of_kind[kind], steps[kind]
+        order = np.lexsort((step, path))
+        columns = {
+            name: column[..., order]
+            for name, column in found.values.items()
+            if found.given[name].all() and name not in ("path", "x", "y", "sample", "step", "depth")
+        }
+        depth = found.values.get("depth", np.zeros(path.size, np.int64))
+        tables[kind] = Table(path[order], step[order], depth[order], columns)
+    _with_ends(tables, first.size)
+    paths = _paths(tables, place, first.size)
+    tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
+    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps), _of_tables(exact, tables)
+
+
+def _all(found, name):
+    return found.values.get(name, np.zeros(found.size, np.int64)).astype(np.int64)
+
+
+def _keys(found):
+    if "path" in found.values and found.given["path"].all():
+        return found.values["path"]
+    return ((_all(found, "y") * 65536 + _all(found, "x")) << 24) + _all(found, "sample")
+
+
+def _steps(columns, of_kind):
+    """Place of each event in its path, kind -> (N,): as logged, else in the order of lines."""
+    if all("step" in found.values and found.given["step"].all() for found in columns.values()):
+        return {kind: found.values["step"] for kind, found in columns.items()}
+    line = np.concatenate([found.line for found in columns.values()])
+    path = np.concatenate([of_kind[kind] for kind in columns])
+    order = np.lexsort((line, path))
+    begins = np.flatnonzero(np.r_[True, path[order][1:] != path[order][:-1]])
+    step = np.empty(line.size, np.int64)
+    step[order] = np.arange(line.size) - np.repeat(begins, np.diff(np.r_[begins, line.size]))
+    splits = np.cumsum([found.size for found in columns.values()])[:-1]
+    return dict(zip(columns, np.split(step, splits), strict=True))
+
+
+def _with_ends(tables, size):
+    """An END for every path that has none."""
+    if tables["end"].path.size:
+        return
+    last = np.full(size, -1)
+    for table in tables.values():
+        np.maximum.at(last, table.path, table.step)
+    tables["end"] = Table(np.arange(size), last + 1, np.zeros(size, np.int64), {})
+
+
+def _of_tables(scene, tables):
+    hits = tables["hit"]
+    if hits["p"] is None or hits["primitive"] is not None or hits["wo"] is None:
+        return []
+    p, d = hits["p"].astype(np.float64), -hits["wo"].astype(np.float64)
+    primitive = geometry.primitives_at(scene, p - d, d, p)
+    hits.columns["primitive"] = primitive.astype(np.int32)
+    nowhere = int(np.count_nonzero(primitive < 0))
+    return [f"{nowhere} vertices lie on no surface of {scene.name}"] if nowhere else []
+
+
