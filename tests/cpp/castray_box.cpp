@@ -58,9 +58,9 @@ struct Hit { bool happened; Float t; Vec p, n; const Material *m; };
 
 static const Float PI = Float(3.14159265358979323846);
 static const Float ROULETTE = Float(0.8);
-static const Material red = {Vec(.63f, .065f, .05f), Vec()}, green = {Vec(.14f, .45f, .091f), Vec()},
-                      white = {Vec(.725f, .71f, .68f), Vec()},
-                      lamp = {Vec(.65f), Vec(47.8348f, 38.5664f, 31.0808f)};
+static const Material red = {Vec(.63, .065, .05), Vec()}, green = {Vec(.14, .45, .091), Vec()},
+                      white = {Vec(.725, .71, .68), Vec()},
+                      lamp = {Vec(.65), Vec(47.8348, 38.5664, 31.0808)};
 static std::vector<Triangle> triangles;
 
 static thread_local std::mt19937 engine;
@@ -95,12 +95,12 @@ static void box(const Float (*c)[2], Float h) {
 
 static void build() {
     Vec in(278, 274, 280);
-    quad(Vec(0, 0, 0), Vec(556, 0, 0), Vec(556, 0, 559.2f), Vec(0, 0, 559.2f), white, in);
-    quad(Vec(0, 548.8f, 0), Vec(556, 548.8f, 0), Vec(556, 548.8f, 559.2f), Vec(0, 548.8f, 559.2f), white, in);
-    quad(Vec(0, 0, 559.2f), Vec(556, 0, 559.2f), Vec(556, 548.8f, 559.2f), Vec(0, 548.8f, 559.2f), white, in);
-    quad(Vec(0, 0, 0), Vec(0, 0, 559.2f), Vec(0, 548.8f, 559.2f), Vec(0, 548.8f, 0), green, in);
-    quad(Vec(552.8f, 0, 0), Vec(549.6f, 0, 559.2f), Vec(556, 548.8f, 559.2f), Vec(556, 548.8f, 0), red, in);
-    quad(Vec(213, 548.7f, 227), Vec(343, 548.7f, 227), Vec(343, 548.7f, 332), Vec(213, 548.7f, 332), lamp, in);
+    quad(Vec(0, 0, 0), Vec(556, 0, 0), Vec(556, 0, 559.2), Vec(0, 0, 559.2), white, in);
+    quad(Vec(0, 548.8, 0), Vec(556, 548.8, 0), Vec(556, 548.8, 559.2), Vec(0, 548.8, 559.2), white, in);
+    quad(Vec(0, 0, 559.2), Vec(556, 0, 559.2), Vec(556, 548.8, 559.2), Vec(0, 548.8, 559.2), white, in);
+    quad(Vec(0, 0, 0), Vec(0, 0, 559.2), Vec(0, 548.8, 559.2), Vec(0, 548.8, 0), green, in);
+    quad(Vec(552.8, 0, 0), Vec(549.6, 0, 559.2), Vec(556, 548.8, 559.2), Vec(556, 548.8, 0), red, in);
+    quad(Vec(213, 548.7, 227), Vec(343, 548.7, 227), Vec(343, 548.7, 332), Vec(213, 548.7, 332), lamp, in);
     const Float small[4][2] = {{130, 65}, {82, 225}, {240, 272}, {290, 114}};
     const Float tall[4][2] = {{423, 247}, {265, 296}, {314, 456}, {472, 406}};
     box(small, 165);
@@ -223,10 +223,10 @@ static Vec castRay(const Ray &ray, int depth) {
         Float density = pdf(wo, N);
         Vec factor = eval(*hit.m, wo, N);
         Float cosine = std::fmax(Float(0), dot(wo, N));
-        if (density > 0) {
 #if LEVEL >= 2
-            CASTRAY_LOG("bounce.wi", wo, "bounce.f", factor, "bounce.cos", cosine, "bounce.pdf", density);
+        CASTRAY_LOG("bounce.wi", wo, "bounce.f", factor, "bounce.cos", cosine, "bounce.pdf", density);
 #endif
+        if (density > 0) {
             Ray next = {p, wo};
 #ifdef PEEK
             Hit ahead = intersect(next);

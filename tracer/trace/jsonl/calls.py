@@ -135,7 +135,7 @@ def _levels(above):
 @dataclass
 class Places:
     """Where each call's ray went. o, d: (3, N) its ray; hit: (N,) whether it met a surface, there: p, wo, n,
-    ng (3, N), primitive (N,)."""
+    ng (3, N), primitive (N,); through: (N,) whether it passed the back of a surface of the scene."""
 
     o: np.ndarray
     d: np.ndarray
@@ -145,6 +145,7 @@ class Places:
     n: np.ndarray
     ng: np.ndarray
     primitive: np.ndarray
+    through: np.ndarray
 
     def vertex(self, rows):
         """What materials are asked with, of some calls."""
@@ -153,19 +154,15 @@ class Places:
 
 def placed(chain, scene):
     """The Places of calls in a scene (of 64 bits): as logged, or where the scene says."""
-    size = chain.path.size
     p, logged = chain("hit.p"), chain.given("hit.p")
     o, d = _rays(chain, scene, p, logged)
-    t, primitive = geometry.met(scene, o, d)
+    t, primitive = geometry.onward(scene, o, d)
+    first, met_first = t.copy(), primitive.copy()
     if not logged.any():
         p = o + np.where(np.isfinite(t), t, 0.0) * d
         hit = np.isfinite(t)
-        near = geometry.NEAR * geometry.scale(scene)
-        after = np.roll(o, -1, axis=1)
-        moved = ~chain.last & ~(np.sqrt(((after - p) ** 2).sum(axis=0)) <= near)
-        p = np.where(moved, after, p)
-        asked = np.flatnonzero(moved)
-        hit |= moved
+        p, asked = _where_next_begins(chain, scene, o, d, p, primitive)
+        hit[asked] = True
     else:
         hit = logged
         near = geometry.NEAR * geometry.scale(scene)
@@ -186,8 +183,45 @@ def placed(chain, scene):
             np.copyto(mine, chain(name), where=chain.given(name))
     if chain.given("hit.n").any():  # of a mesh's face that the scene does not know, the logged one
         np.copyto(ng, n, where=np.isnan(ng))
-    assert size == hit.size
-    return Places(o, d, hit, p, wo, n, ng, primitive)
+    return Places(o, d, hit, p, wo, n, ng, primitive, _through(scene, o, d, np.where(hit, p, np.inf), first, met_first))
+
+
+def _where_next_begins(chain, scene, o, d, p, primitive):
+    """(points (3, N), rows at which it is not known what they lie on): where rays alone were logged a vertex is
+    where the next ray begins, put onto the surface that the scene has there."""
+    ng, _ = geometry.surfaces(scene, p, d, primitive)
+    shift = np.where(chain.last, 0.0, np.roll(o, -1, axis=1) - p)
+    size = np.sqrt((shift * shift).sum(axis=0))
+    shift = shift - np.where(np.isfinite(ng), (shift * ng).sum(axis=0) * ng, 0.0)
+    elsewhere = ~chain.last & ~(size <= geometry.NEAR * geometry.scale(scene))
+    aside = np.sqrt((shift * shift).sum(axis=0)) > 1e-5 * geometry.scale(scene)
+    moved = np.where(elsewhere, np.roll(o, -1, axis=1), p + np.where(np.isfinite(shift), shift, 0.0))
+    return moved, np.flatnonzero(elsewhere | (aside & ~chain.last))
+
+
+def _through(scene, o, d, p, t, primitive):
+    """Whether rays to p go through a surface that the scene has nearer by, from behind, (N,)."""
+    gap = np.where(np.isfinite(p[0]), np.sqrt(((np.where(np.isfinite(p), p, 0.0) - o) ** 2).sum(axis=0)), np.inf)
+    size = geometry.scale(scene)
+    nearer = (primitive >= 0) & (t < gap - geometry.NEAR * size) & (t > 1e-5 * size)
+    found = np.zeros(t.shape, bool)
+    some = np.flatnonzero(nearer)
+    ng, _ = geometry.surfaces(scene, o[:, some] + t[some] * d[:, some], d[:, some], primitive[some])
+    found[some] = (ng * d[:, some]).sum(axis=0) > 0.0
+    return found
+
+
+def culled(chain, places):
+    """Chain and Places without the paths that go through the back of a surface: the scene's have two sides."""
+    out = np.zeros(int(chain.path.max(initial=-1)) + 1, bool)
+    out[chain.path[places.through]] = True
+    if not out.any() or out.all():
+        return chain, places
+    keep = ~out[chain.path]
+    path = (np.cumsum(~out) - 1)[chain.path[keep]]
+    note = f"{np.count_nonzero(out)} paths go through the back of a surface, which the scene closes: left out"
+    kept = Chain(chain.columns.take(keep), path, chain.level[keep], chain.last[keep], [*chain.notes, note])
+    return kept, Places(*(column[..., keep] for column in vars(places).values()))
 
 
 def _rays(chain, scene, p, logged):

@@ -23,6 +23,18 @@ def met(scene, o, d):
     return t, primitive
 
 
+def onward(scene, o, d):
+    """As met, for rays from logged points: what lies within rounding of the start is the surface that they
+    leave."""
+    t, primitive = met(scene, o, d)
+    again = np.flatnonzero(t < 1e-4 * scale(scene))
+    if again.size:
+        ahead = t[again] + 1e-6 * scale(scene)
+        far, other = met(scene, o[:, again] + ahead * d[:, again], d[:, again])
+        t[again], primitive[again] = ahead + far, other
+    return t, primitive
+
+
 def primitives_at(scene, o, d, p):
     """Primitive (N,) that points p (3, N), come to along rays, lie on; -1 where there is none nearby.
 

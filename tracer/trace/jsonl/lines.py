@@ -1,5 +1,6 @@
 """Lines of a log become columns: bounded memory whatever the file holds, and every mistake has its place."""
 
+import gc
 import json
 import re
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ from tracer.trace.jsonl import header
 from tracer.trace.jsonl.schema import call_fields, event_fields
 
 LONGEST = 1 << 20  # bytes of a line
-CHUNK = 1 << 14  # lines that are kept as objects at once
+CHUNK = 1 << 12  # lines that are kept as objects at once
 SHOWN = 20  # mistakes that are told one by one
 _KIND = {kind.name: kind for kind in KINDS}
 # What printf and others make of numbers that are none, outside of strings.
@@ -80,11 +81,16 @@ class Read:
 def read(path, tables=None):
     """The Read of a log. tables: domain -> names that stand for numbers ("shape", "bsdf", "light"), and
     "primitive": how many there are. TracerError where nothing can be made of the file."""
+    collecting = gc.isenabled()
+    gc.disable()  # lists of numbers have no cycles, and looking for some among millions takes longer than reading
     try:
         with open(path, "rb") as file:
             return _read(path, file, tables or {})
     except OSError as error:
         raise TracerError(f"{path}: {error.strerror or error}") from None
+    finally:
+        if collecting:
+            gc.enable()
 
 
 def _read(path, file, tables):

@@ -110,9 +110,10 @@ def _of_calls(read, scene, exact, settings):
         places.n *= np.where((places.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
         places.ng = np.where(np.isfinite(real), real, places.ng)
     notes = list(conventions.complaints_of_scene(chain, places, exact, settings, read.header))
-    chain, places = told.peeked(chain, places, exact)
+    chain, places = told.peeked(*calls.culled(chain, places), exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
-    telling = told.Telling(chain, places, exact, settings, read.header.eps, known)
+    sampled = "hemisphere" in read.header.options or settings.hemisphere == "uniform"
+    telling = told.Telling(chain, places, exact, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
     paths = _paths(tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size)

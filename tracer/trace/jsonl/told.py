@@ -23,18 +23,18 @@ def peeked(chain, places, scene):
     if not at.size:
         return chain, places
     wi = chain("bounce.wi")[:, at]
-    o = places.p[:, at] + 1e-5 * geometry.scale(scene) * wi
-    t, primitive = geometry.met(scene, o, wi)
+    o = places.p[:, at]
+    t, primitive = geometry.onward(scene, o, wi)
     out = primitive < 0
     lamp = ~out & (scene.light_of.take(np.maximum(primitive, 0)) >= 0)
     fits = out | lamp
-    if not fits.any():
+    if fits.mean() < 0.9:  # then they end for another reason
         return chain, places
-    at, wi, t, primitive, out = at[fits], wi[:, fits], t[fits], primitive[fits], out[fits]
-    p = o[:, fits] + np.where(out, 0.0, t) * wi
+    out |= ~lamp  # by the program's own account nothing was met there
+    p = o + np.where(out, 0.0, t) * wi
     primitive = np.where(out, -1, primitive)
     ng, n = geometry.surfaces(scene, p, wi, primitive)
-    more = Places(places.p[:, at], wi, ~out, p, -wi, n, ng, primitive)
+    more = Places(places.p[:, at], wi, ~out, p, -wi, n, ng, primitive, np.zeros(at.size, bool))
     path, level = np.r_[chain.path, chain.path[at]], np.r_[chain.level, chain.level[at] + 1]
     order = np.lexsort((level, path))
     columns = _longer(chain.columns, at).take(order)
@@ -75,6 +75,7 @@ class Telling:
     settings: object
     eps: float
     roulette_known: bool
+    sampler_known: bool  # whether it was declared, or told from the numbers, how surfaces choose directions
 
     def __post_init__(self):
         chain, places = self.chain, self.places
@@ -226,11 +227,31 @@ class Telling:
         by_area = self.chain.given("light.pdf_area").any() or self.settings.light_sampling == "area"
         way = TECHNIQUES.index("area" if by_area else "solid_angle")
         found["technique"] = said("technique", lambda: np.full(rows.size, way))
-        if self.chain.given("direct")[rows].all():
+        if self._all_given("direct", rows):
             direct = self.chain("direct")[:, rows]
             found["visible"] = said("visible", lambda: (direct != 0.0).any(axis=0))
+            self._as_near_as_points_say(found, direct, rows)
         self._beneath(found, rows)
         return found
+
+    def _all_given(self, name, rows):
+        return rows.size > 0 and bool(self.chain.given(name)[rows].all())
+
+    def _as_near_as_points_say(self, found, direct, rows):
+        """A density that was worked out from two points is as uncertain as they are, which is much where one
+        lies near the plane of the other's surface. Within that it is the one that the logged term has."""
+        parts = ("f", "Le", "cos", "w", "pdf", "visible", "q", "wi", "nq")
+        if "light.pdf" not in self.rebuilt or any(found.get(name) is None for name in parts):
+            return
+        off = 32.0 * self.eps * max(geometry.scale(self.scene), float(np.abs(self.scene.camera.origin).max()))
+        height = np.abs(dot(found["nq"], found["q"] - self.places.p[:, rows]))
+        if "light.cos" in self.rebuilt:
+            height = np.minimum(height, np.abs(dot(self.places.n[:, rows], found["q"] - self.places.p[:, rows])))
+        with np.errstate(all="ignore"):
+            term = found["f"] * found["Le"] * found["cos"] * found["w"] * found["visible"]
+            implied = term.max(axis=0) / direct.max(axis=0)
+            near = np.abs(implied / found["pdf"] - 1.0) <= 2.0 * off / height
+        found["pdf"] = np.where(near & np.isfinite(implied), implied, found["pdf"])
 
     def _beneath(self, found, rows):
         """Below the horizon the cosine is its size, and where nothing could arrive nothing is seen: others log
@@ -271,7 +292,10 @@ class Telling:
         with np.errstate(all="ignore"):
             if given.all():
                 gap = found["q"] - p
-                pdf = self.chain("light.pdf_area")[rows] * dot(gap, gap) / cos
+                said = self.chain.given("light.cos_light")[rows]
+                over = np.where(said, self.chain("light.cos_light")[rows], cos) if said.any() else cos
+                over = np.where(over > 0.0, over, cos)
+                pdf = self.chain("light.pdf_area")[rows] * dot(gap, gap) / over
                 return np.where(cos > 0.0, pdf, 0.0)
             primitive = found["primitive"].astype(np.intp)
             if (primitive < 0).any():
@@ -294,7 +318,7 @@ class Telling:
             "wi": wi,
             "cos": said("cos", lambda: np.abs(dot(vertex["n"], wi))),
             "f": said("f", lambda: geometry.ask(self.scene, "eval", vertex, wi)),
-            "pdf": said("pdf"),
+            "pdf": said("pdf", (lambda: geometry.ask(self.scene, "pdf", vertex, wi)) if self.sampler_known else None),
             "delta": delta,
             "u": said("u"),
         }
@@ -318,10 +342,13 @@ class Telling:
                 ratio = np.where(inner > 0.0, self.chain("indirect") / inner, np.nan)
             ratio[~np.isfinite(ratio)] = np.nan
         made = np.full((3, size), np.nan)
-        if bounce["pdf"] is not None:
-            cos = np.where(bounce["delta"].astype(bool), 1.0, bounce["cos"])
-            with np.errstate(all="ignore"):
-                made[:, rows] = bounce["f"] * cos / bounce["pdf"]
+        cos, pdf = np.where(bounce["delta"].astype(bool), 1.0, bounce["cos"]), bounce["pdf"]
+        if pdf is None:  # counts only where nothing came back, so that nothing depends on it
+            pdf = geometry.ask(self.scene, "pdf", self.places.vertex(rows), bounce["wi"])
+        with np.errstate(all="ignore"):
+            made[:, rows] = bounce["f"] * cos / pdf
+        if bounce["pdf"] is None:
+            made = np.nan_to_num(made, nan=0.0, posinf=0.0)
         q = np.where(np.isfinite(self.q) & self.bounced, self.q, 1.0)
         known = np.isfinite(ratio)
         with np.errstate(all="ignore"):
@@ -329,8 +356,18 @@ class Telling:
             unpaid &= np.abs(q - 1.0) > _SAME * self.eps
             of_roulette = np.where(unpaid, 1.0, 1.0 / q)
             of_bounce = np.where(known, ratio / of_roulette, made)
+        if "bounce.cos" in self.rebuilt:
+            self._as_near_as_directions_say(bounce, of_bounce[:, rows] / made[:, rows])
         self.rebuilt |= {"bounce.beta", "roulette.beta", "hit.beta", "light.beta", "bounce.beta_before"}
         return self._multiplied(of_bounce, of_roulette)
+
+    def _as_near_as_directions_say(self, bounce, ratio):
+        """The same for a cosine that was worked out from two directions: it is what the logged terms have, if
+        that lies within what the directions say."""
+        with np.errstate(all="ignore"):
+            implied = bounce["cos"] * ratio.max(axis=0)
+            near = np.abs(implied - bounce["cos"]) <= 16.0 * self.eps
+        bounce["cos"] = np.where(near, implied, bounce["cos"])
 
     def _multiplied(self, of_bounce, of_roulette):
         size = self.chain.path.size
@@ -383,7 +420,7 @@ class Telling:
             found["pdf_bsdf"] = self._said("hit", "pdf_bsdf", lambda: pdf)
         found["pdf_light"] = self._said("hit", "pdf_light", lambda: self._found_by_light(rows, Le, front))
         for name in TERMS:
-            if self.chain.given(name)[rows].all() and rows.size:
+            if self._all_given(name, rows):
                 found[name] = self.chain(name)[:, rows]
         return found
 
@@ -413,7 +450,7 @@ class Telling:
     def _lit_up(self, light, beta):
         rows = self.rows["light"]
         light["beta"] = None if beta is None else beta[:, rows]
-        if self.chain.given("direct")[rows].all():
+        if self._all_given("direct", rows):
             with np.errstate(all="ignore"):
                 light["contribution"] = beta[:, rows] * self.chain("direct")[:, rows]
         elif all(light.get(name) is not None for name in ("f", "Le", "cos", "pdf", "w", "visible")):
@@ -468,6 +505,6 @@ class Telling:
         self.rebuilt.add("end.reason")
         found = {"reason": reason if (reason >= 0).all() else None, "radiance": None}
         root = self.rows["camera"]
-        if self.chain.given("returned")[root].all():
+        if self._all_given("returned", root):
             found["radiance"] = self.chain("returned")[:, root]
         return found
