@@ -44,7 +44,7 @@ class Chain:
 
 
 def path_numbers(columns):
-    """(row of its path (N,), lines at which paths begin (P,)): told apart by path, else by x, y and sample."""
+    """Row of its path (N,) of each line, and the line (P,) at which each path begins."""
     values, given = columns.values, columns.given
     if "path" in given and given["path"].all():
         keys = values["path"]
@@ -88,8 +88,8 @@ def chained(columns):
         keep = fine
     if beside:
         notes.append(
-            f"{beside} calls are the second one from the same call: castRay calls itself more than once; only "
-            "the first is followed"
+            f"{beside} calls are the second one from the same call: castRay calls itself more than once; "
+            "only the first is followed"
         )
     cut = np.unique(rows[level < 0]).size
     if cut:
@@ -183,12 +183,14 @@ def placed(chain, scene):
             np.copyto(mine, chain(name), where=chain.given(name))
     if chain.given("hit.n").any():  # of a mesh's face that the scene does not know, the logged one
         np.copyto(ng, n, where=np.isnan(ng))
-    return Places(o, d, hit, p, wo, n, ng, primitive, _through(scene, o, d, np.where(hit, p, np.inf), first, met_first))
+    return Places(
+        o, d, hit, p, wo, n, ng, primitive, _through(scene, o, d, np.where(hit, p, np.inf), first, met_first)
+    )
 
 
 def _where_next_begins(chain, scene, o, d, p, primitive):
-    """(points (3, N), rows at which it is not known what they lie on): where rays alone were logged a vertex is
-    where the next ray begins, put onto the surface that the scene has there."""
+    """(points (3, N), rows at which it is not known what they lie on): where rays alone were logged a vertex
+    is where the next ray begins, put onto the surface that the scene has there."""
     ng, _ = geometry.surfaces(scene, p, d, primitive)
     shift = np.where(chain.last, 0.0, np.roll(o, -1, axis=1) - p)
     size = np.sqrt((shift * shift).sum(axis=0))
@@ -201,7 +203,9 @@ def _where_next_begins(chain, scene, o, d, p, primitive):
 
 def _through(scene, o, d, p, t, primitive):
     """Whether rays to p go through a surface that the scene has nearer by, from behind, (N,)."""
-    gap = np.where(np.isfinite(p[0]), np.sqrt(((np.where(np.isfinite(p), p, 0.0) - o) ** 2).sum(axis=0)), np.inf)
+    gap = np.where(
+        np.isfinite(p[0]), np.sqrt(((np.where(np.isfinite(p), p, 0.0) - o) ** 2).sum(axis=0)), np.inf
+    )
     size = geometry.scale(scene)
     nearer = (primitive >= 0) & (t < gap - geometry.NEAR * size) & (t > 1e-5 * size)
     found = np.zeros(t.shape, bool)
@@ -212,7 +216,7 @@ def _through(scene, o, d, p, t, primitive):
 
 
 def culled(chain, places):
-    """Chain and Places without the paths that go through the back of a surface: the scene's have two sides."""
+    """Chain and Places without the paths that go through the back of a surface: here they have two sides."""
     out = np.zeros(int(chain.path.max(initial=-1)) + 1, bool)
     out[chain.path[places.through]] = True
     if not out.any() or out.all():

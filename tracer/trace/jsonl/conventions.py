@@ -1,4 +1,4 @@
-"""A log's own units and conventions turned into castray's, and a look at whether it keeps those it declares."""
+"""A log's units and conventions turned into castray's, and a look at whether it keeps what it declares."""
 
 import numpy as np
 
@@ -180,4 +180,4 @@ def _of_pixels(chain, places, scene, settings, header):
             right = way if header.turned[name] in ("right", "down") else {"x": "right", "y": "down"}[name]
             yield f'your picture is mirrored: declare "{name}": "{right}" in the header'
             return
-    yield "your camera rays do not go through their pixels: is it this scene's camera, and the right picture size?"
+    yield "your camera rays do not go through their pixels: is it this scene's camera, and the right size?"

@@ -26,7 +26,7 @@ def parsed(record, place):
     """The Header of a decoded first line; TracerError naming the field that is wrong."""
     if not isinstance(record, dict) or "castray" not in record:
         raise TracerError(
-            f'{place}: no header; the first line has to be one like {{"castray": {VERSION}, "tracer": "mine"}} '
+            f'{place}: no header; the first line has to be like {{"castray": {VERSION}, "tracer": "mine"}} '
             "(castray log --schema has all)"
         )
     if record["castray"] != VERSION:

@@ -1,10 +1,7 @@
 """Lines of a log become columns: bounded memory whatever the file holds, and every mistake has its place."""
 
 import gc
-import json
-import re
 from dataclasses import dataclass, field
-from itertools import chain
 
 import numpy as np
 
@@ -12,17 +9,12 @@ from tracer.events import KINDS
 from tracer.settings import TracerError
 from tracer.trace.jsonl import header
 from tracer.trace.jsonl.schema import call_fields, event_fields
+from tracer.trace.jsonl.spelling import decoded, number, plain_numbers, short
 
 LONGEST = 1 << 20  # bytes of a line
 CHUNK = 1 << 12  # lines that are kept as objects at once
 SHOWN = 20  # mistakes that are told one by one
 _KIND = {kind.name: kind for kind in KINDS}
-# What printf and others make of numbers that are none, outside of strings.
-_SPELLED = re.compile(r"(?<=[\[:,\s])([+-]?)(nan(?:\([^)]*\)|\w*)|inf(?:inity)?|1\.#\w+)(?=[\],}\s])", re.I)
-_WORDS = {
-    "nan": np.nan, "-nan": np.nan, "inf": np.inf, "+inf": np.inf, "-inf": -np.inf,
-    "infinity": np.inf, "+infinity": np.inf, "-infinity": -np.inf,
-}  # fmt: skip
 _WHOLE = ("whole", "pixel", "index", "shape", "bsdf", "light", "choice")
 _TABLES = ("shape", "bsdf", "light")
 _MOST_WHOLE = 2**53
@@ -42,7 +34,7 @@ class Mistake:
 
 @dataclass
 class Columns:
-    """The values of all lines of one sort. values: name -> (..., N), NaN where not given; given: name -> (N,)."""
+    """All lines of one sort. values: name -> (..., N), NaN where not given; given: name -> (N,)."""
 
     line: np.ndarray
     values: dict
@@ -82,7 +74,7 @@ def read(path, tables=None):
     """The Read of a log. tables: domain -> names that stand for numbers ("shape", "bsdf", "light"), and
     "primitive": how many there are. TracerError where nothing can be made of the file."""
     collecting = gc.isenabled()
-    gc.disable()  # lists of numbers have no cycles, and looking for some among millions takes longer than reading
+    gc.disable()  # lists of numbers have no cycles; looking for some takes longer than reading
     try:
         with open(path, "rb") as file:
             return _read(path, file, tables or {})
@@ -94,17 +86,17 @@ def read(path, tables=None):
 
 
 def _read(path, file, tables):
-    found, gathering, number = None, None, 0
+    found, gathering, line = None, None, 0
     while raw := file.readline(LONGEST + 1):
-        number += 1
+        line += 1
         if len(raw) > LONGEST:
             raise TracerError(
-                f"{path}: line {number} is longer than {LONGEST >> 20} MB; a log has one event or call a line"
+                f"{path}: line {line} is longer than {LONGEST >> 20} MB; a log has one event or call a line"
             )
         if not raw.strip():
             continue
         if found is None:
-            place = f"{path}: line {number}"
+            place = f"{path}: line {line}"
             record, why = decoded(raw.removeprefix(b"\xef\xbb\xbf"))
             if why:
                 raise TracerError(f"{place}: {why}; a log is JSON Lines (castray log --schema)")
@@ -116,9 +108,9 @@ def _read(path, file, tables):
         if why and not raw.endswith(b"\n"):
             found.cut = True
         elif why or not isinstance(record, dict):
-            found.tell(number, "", why or "not an object")
+            found.tell(line, "", why or "not an object")
         else:
-            gathering.add(record, number)
+            gathering.add(record, line)
     if found is None:
         raise TracerError(f"{path}: empty; the first line of a log is its header (castray log --schema)")
     found.columns = gathering.finish()
@@ -130,29 +122,6 @@ def _read(path, file, tables):
     return found
 
 
-def decoded(raw):
-    """(the object, "") of a line of bytes, or (None, what is wrong with it)."""
-    try:
-        return json.loads(raw), ""
-    except UnicodeDecodeError:
-        return None, "not UTF-8"
-    except RecursionError:
-        return None, "nested too deeply; give calls lines of their own"
-    except ValueError as error:
-        try:
-            return json.loads(_SPELLED.sub(_json_number, raw.decode("utf-8"))), ""
-        except (ValueError, RecursionError):
-            return None, f"not JSON: {getattr(error, 'msg', error)} at column {getattr(error, 'colno', 0)}"
-
-
-def _json_number(match):
-    sign, word = match.groups()
-    word = word.lower()
-    if word.startswith("nan") or (word.startswith("1.#") and "inf" not in word):
-        return "NaN"
-    return f"{'-' if sign == '-' else ''}Infinity"
-
-
 class Gathering:
     """Gathers lines with the same fields and makes blocks of columns of them, a chunk at a time."""
 
@@ -162,36 +131,35 @@ class Gathering:
         self.groups, self.waiting = {}, 0
         self.blocks = {}  # kind -> [(lines, values)]
         self.fields = {None: call_fields()} | {name: event_fields(kind) for name, kind in _KIND.items()}
-        self.inner = 0
 
-    def add(self, record, number):
+    def add(self, record, place):
         """One line."""
         kind = record.pop("kind", None)
         if kind is None and "child" in record:
-            self._nested(record, number)
+            self._nested(record, place)
             return
         if kind is not None and (not isinstance(kind, str) or kind not in _KIND):
-            self.found.tell(number, "kind", f"{kind!r:.30} is not known; choose one of {', '.join(_KIND)}")
+            self.found.tell(place, "kind", f"{kind!r:.30} is not known; choose one of {', '.join(_KIND)}")
             return
         key = (kind, *record)
         group = self.groups.get(key)
         if group is None:
             group = self.groups[key] = []
-        group.append((number, tuple(record.values())))
+        group.append((place, tuple(record.values())))
         self.waiting += 1
         if self.waiting >= CHUNK:
             self._flush()
 
-    def _nested(self, record, number):
+    def _nested(self, record, place):
         """A call with its inner calls within: each becomes a line of its own."""
         shared = {name: record[name] for name in ("path", "x", "y", "sample") if name in record}
         call = 0
         while isinstance(record, dict):
             child = record.pop("child", None)
-            self.add(shared | record | {"call": call, "parent": call - 1}, number)
+            self.add(shared | record | {"call": call, "parent": call - 1}, place)
             record, call = child, call + 1
         if record is not None:
-            self.found.tell(number, "child", f"{record!r:.30} is not an object")
+            self.found.tell(place, "child", f"{record!r:.30} is not an object")
 
     def _flush(self):
         for (kind, *names), group in self.groups.items():
@@ -218,7 +186,7 @@ class Gathering:
         """((..., N) array, (N,) which lines are right) of one field."""
         whole = f.domain in _WHOLE
         dtype = np.int64 if whole else np.uint8 if f.domain == "flag" else self.dtype
-        array = _fast(f, column)
+        array = plain_numbers(f, column)
         fine = np.ones(len(column), bool)
         if array is None:
             array = np.full((*f.shape, len(column)), np.nan)
@@ -230,7 +198,9 @@ class Gathering:
                     self.found.tell(int(lines[k]), name, str(error))
         fine &= self._in_range(f, name, array, lines, fine)
         with np.errstate(over="ignore", invalid="ignore"):
-            return np.where(fine, array, 0).astype(dtype) if whole or dtype is np.uint8 else array.astype(dtype), fine
+            return np.where(fine, array, 0).astype(dtype) if whole or dtype is np.uint8 else array.astype(
+                dtype
+            ), fine
 
     def _in_range(self, f, name, array, lines, fine):
         most = {"pixel": 65534, "whole": _MOST_WHOLE, "index": _MOST_WHOLE}.get(f.domain)
@@ -252,7 +222,11 @@ class Gathering:
             bad = ~((array >= least) & (array <= (most if most is not None else _MOST_WHOLE)))
             bad |= array != np.floor(array)
         for k in np.flatnonzero(bad & fine):
-            what = "is neither true nor false" if f.domain == "flag" else f"is not a whole number from {least} to {most}"
+            what = (
+                "is neither true nor false"
+                if f.domain == "flag"
+                else f"is not a whole number from {least} to {most}"
+            )
             self.found.tell(int(lines[k]), name, f"{array[k]:.15g} {what}")
         return ~bad
 
@@ -260,16 +234,16 @@ class Gathering:
         """What a value of any spelling is as numbers; ValueError saying what is wrong."""
         if f.shape:
             if not isinstance(value, (list, tuple)) or len(value) != f.shape[0]:
-                raise ValueError(f"{_short(value)} is not a list of {f.shape[0]} numbers")
-            return [_number(v) for v in value]
+                raise ValueError(f"{short(value)} is not a list of {f.shape[0]} numbers")
+            return [number(v) for v in value]
         names = self.tables.get(f.domain, ()) if f.domain in _TABLES else f.choices
         if isinstance(value, str) and (names or f.domain in _TABLES):
             if value not in names:
-                raise ValueError(f"{_short(value)} is not known; choose one of {', '.join(names[:12])}")
+                raise ValueError(f"{short(value)} is not known; choose one of {', '.join(names[:12])}")
             return names.index(value)
         if value is None and f.domain in _TABLES:
             return -1
-        return _number(value)
+        return number(value)
 
     def finish(self):
         """Name of a kind, or None -> Columns."""
@@ -296,43 +270,3 @@ class Gathering:
                 at += lines.size
         order = np.argsort(line, kind="stable")
         return Columns(line, values, given).take(order)
-
-
-def _fast(f, column):
-    """The (..., N) array of a column of plain numbers; None where there is anything else."""
-    if f.shape:
-        if set(map(type, column)) != {list} or set(map(len, column)) != {f.shape[0]}:
-            return None
-        flat = list(chain.from_iterable(column))
-    else:
-        flat = column
-    allowed = {bool, int, float} if f.domain == "flag" else {int, float}
-    if not set(map(type, flat)) <= allowed:
-        return None
-    try:
-        array = np.array(flat, np.float64)
-    except OverflowError:
-        return None
-    return array.reshape(-1, f.shape[0]).T if f.shape else array
-
-
-def _number(value):
-    if value is None:
-        return np.nan
-    if isinstance(value, str):
-        found = _WORDS.get(value.strip().lower())
-        if found is not None:
-            return found
-        if value.strip().lower().startswith(("nan", "-nan")):
-            return np.nan
-    elif isinstance(value, (int, float)):
-        try:
-            return float(value)
-        except OverflowError:
-            pass
-    raise ValueError(f"{_short(value)} is not a number")
-
-
-def _short(value):
-    text = json.dumps(value, ensure_ascii=True)
-    return text if len(text) <= 30 else f"{text[:27]}..."

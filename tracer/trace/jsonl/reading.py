@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
-from tracer.trace.jsonl import calls, conventions, geometry, header, lines, told
+from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, told
 from tracer.trace.trace import Table, Trace
 
 _UNIFORM = 0.5 / np.pi
@@ -82,7 +82,7 @@ def _column(read, kind, name):
 
 def _read_off(read):
     """Settings that the numbers show."""
-    found = {}
+    found: dict[str, object] = {}
     q = _column(read, "roulette", "probability")
     q = q[np.isfinite(q)]
     if q.size and 0.0 < q[0] <= 1.0 and np.ptp(q) <= 4.0 * read.header.eps:
@@ -92,7 +92,7 @@ def _read_off(read):
     pdf = _column(read, "bounce", "pdf")
     if pdf.size and np.mean(np.abs(pdf - _UNIFORM) <= 1e-4) > 0.9:
         found["hemisphere"] = "uniform"
-    if _column(read, "light", "pdf_area").size:
+    if _column(read, "light", "pdf_area").size and not _column(read, "light", "pdf").size:
         found["light_sampling"] = "area"
     lit = any(name.startswith(("light.", "direct")) for name in getattr(read.columns.get(None), "values", ()))
     if not lit and "light" not in read.columns:
@@ -110,16 +110,22 @@ def _of_calls(read, scene, exact, settings):
         places.n *= np.where((places.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
         places.ng = np.where(np.isfinite(real), real, places.ng)
     notes = list(conventions.complaints_of_scene(chain, places, exact, settings, read.header))
-    chain, places = told.peeked(*calls.culled(chain, places), exact)
+    chain, places = calls.culled(chain, places)
+    chain, places = peek.peeked(chain, places, exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
     sampled = "hemisphere" in read.header.options or settings.hemisphere == "uniform"
     telling = told.Telling(chain, places, exact, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
-    paths = _paths(tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size)
+    paths = _paths(
+        tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size
+    )
     tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
     rebuilt = frozenset(telling.rebuilt)
-    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps, rebuilt), [*chain.notes, *notes]
+    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps, rebuilt), [
+        *chain.notes,
+        *notes,
+    ]
 
 
 def _value(columns, name, rows):
@@ -137,7 +143,11 @@ def _paths(tables, place, size):
         paths["film"] = film
     if end["radiance"] is not None:
         paths["radiance"] = end["radiance"]
-    elif all(tables[kind]["contribution"] is not None for kind in ("hit", "light", "escape") if tables[kind].path.size):
+    elif all(
+        tables[kind]["contribution"] is not None
+        for kind in ("hit", "light", "escape")
+        if tables[kind].path.size
+    ):
         total = np.zeros((3, size))
         for kind in ("hit", "light", "escape"):
             for channel in range(3):
@@ -212,7 +222,9 @@ def _of_events(read, scene, exact, settings):
     _with_ends(tables, first.size)
     paths = _paths(tables, place, first.size)
     tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
-    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps), _of_tables(exact, tables)
+    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps), _of_tables(
+        exact, tables
+    )
 
 
 def _all(found, name):
@@ -258,5 +270,3 @@ def _of_tables(scene, tables):
     hits.columns["primitive"] = primitive.astype(np.int32)
     nowhere = int(np.count_nonzero(primitive < 0))
     return [f"{nowhere} vertices lie on no surface of {scene.name}"] if nowhere else []
-
-

@@ -16,7 +16,9 @@ PLACE = (
 FLAT = (Field("step", "place in the path, from 0; by default the order of the lines", (), "whole"),)
 # What one call of a recursive function says beside the fields of its events.
 CALL = (
-    Field("call", "number of the call within its path, in the order in which they begin, from 0", (), "whole"),
+    Field(
+        "call", "number of the call within its path, in the order in which they begin, from 0", (), "whole"
+    ),
     Field("parent", "number of the call that called it, -1 for none", (), "index"),
     Field("ray.o", "origin of the ray that the call was given", (3,), "point", "m"),
     Field("ray.d", "its direction", (3,), "unit vector"),
@@ -52,7 +54,9 @@ CHOICES = {
     "y": ("down", "up"),
 }
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-OPTIONS = tuple(name for name in Settings.__dataclass_fields__ if name not in ("precision", "bug", "replicates"))
+OPTIONS = tuple(
+    name for name in Settings.__dataclass_fields__ if name not in ("precision", "bug", "replicates", "accel")
+)
 HEADER = (*_TOLD, *OPTIONS)
 
 
@@ -94,16 +98,16 @@ def schema_text():
         *(f"  {name:<16}{about}" for name, about in _TOLD.items()),
         *(f"  {name:<16}{_about(name)}" for name in OPTIONS),
         "",
-        'Options that are not there are read off the numbers where that can be done (a constant "probability"',
-        "of roulette, densities of 1/(2 pi)), else they are castray's own defaults.",
+        'Options that are not there are read off the numbers where that can be done (a "probability" of',
+        "roulette that is always the same, densities of 1/(2 pi)), else they are castray's own defaults.",
         "",
-        "Every other line is one call of a recursive function, or one event; the two are not mixed. Whatever is",
-        "not known is left out: what cannot be judged without it is then reported as not testable. NaN is null or",
-        'NaN, infinity Infinity, "inf" or "-inf". Vectors are lists. Lengths are in the log\'s unit, colours are',
-        "linear RGB, densities per solid angle unless they are called pdf_area.",
+        "Every other line is one call of a recursive function, or one event; the two are not mixed. What is",
+        "not known is left out: what cannot be judged without it is then reported as not testable. NaN is",
+        'null or NaN, infinity Infinity, "inf" or "-inf". Vectors are lists. Lengths are in the log\'s unit,',
+        "colours are linear RGB, densities per solid angle unless they are called pdf_area.",
         "",
-        "Conventions: wo leads back to where the path came from, wi to where light may come from, both away from",
-        "the surface. f has no cosine. A log that has it otherwise says so in its header.",
+        "Conventions: wo leads back to where the path came from, wi to where light may come from, both away",
+        "from the surface. f has no cosine. A log that has it otherwise says so in its header.",
         "",
         "A line for every line: whose path it is",
         *_rows(PLACE),

@@ -1,0 +1,135 @@
+"""The light samples of calls."""
+
+import numpy as np
+
+from tracer.events import TECHNIQUES
+from tracer.frame import dot, length, normalize
+from tracer.trace.jsonl import geometry
+from tracer.trace.jsonl.stages import Stages
+
+
+class Lights(Stages):
+    """What is known of each light sample."""
+
+    def _light(self):
+        """Columns of light samples but for throughput and contribution."""
+        rows = self.rows["light"]
+        said = lambda name, otherwise=None: self._said("light", name, otherwise)  # noqa: E731
+        found = {name: said(name) for name in ("u", "transmittance")}
+        q, p = said("q"), self.places.p[:, rows]
+        found |= {"q": q, "f": said("f"), "Le": said("Le"), "wi": said("wi"), "visible": said("visible")}
+        if q is not None:
+            gap = q - p
+            found["wi"] = said("wi", lambda: normalize(gap))
+            found["distance"] = said("distance", lambda: length(gap))
+            primitive = self._lamps(q, found["wi"])
+            found["primitive"] = said("primitive", lambda: primitive)
+            primitive = found["primitive"].astype(np.intp)
+            found["light"] = said("light", lambda: np.maximum(self.scene.light_of.take(primitive), 0))
+            ng, _ = geometry.surfaces(self.scene, q, found["wi"], primitive)
+            found["nq"] = nq = said("nq", lambda: ng)
+            front = -dot(ng, found["wi"]) > 0.0
+            found["Le"] = said("Le", lambda: self._radiance(primitive, front)) * front
+            found["pdf"] = said("pdf", lambda: self._density(found, p, ng))
+            found["cos_light"] = said("cos_light", lambda: -dot(nq, found["wi"]))
+            if len(self.scene.light_names) == 1:
+                found["pick"] = said("pick", lambda: np.ones(rows.size))
+        found["pick"] = found.get("pick", said("pick"))
+        wi = found["wi"]
+        if wi is not None:
+            vertex = self.places.vertex(rows)
+            found["cos"] = said("cos", lambda: np.abs(dot(vertex["n"], wi)))
+            found["f"] = said("f", lambda: geometry.ask(self.scene, "eval", vertex, wi))
+        found["pdf_bsdf"] = said("pdf_bsdf")
+        only = self.settings.integrator == "direct" or self.settings.strategy == "light"
+        found["w"] = said("w", (lambda: np.ones(rows.size)) if only else None)
+        by_area = self.chain.given("light.pdf_area").any() or self.settings.light_sampling == "area"
+        way = TECHNIQUES.index("area" if by_area else "solid_angle")
+        found["technique"] = said("technique", lambda: np.full(rows.size, way))
+        if self._all_given("direct", rows):
+            direct = self.chain("direct")[:, rows]
+            found["visible"] = said("visible", lambda: (direct != 0.0).any(axis=0))
+            self._as_near_as_points_say(found, direct, rows)
+        self._beneath(found, rows)
+        return found
+
+    def _as_near_as_points_say(self, found, direct, rows):
+        """A density that was worked out from two points is as uncertain as they are, which is much where one
+        lies near the plane of the other's surface. Within that it is the one that the logged term has."""
+        parts = ("f", "Le", "cos", "w", "pdf", "visible", "q", "wi", "nq")
+        if "light.pdf" not in self.rebuilt or any(found.get(name) is None for name in parts):
+            return
+        off = 32.0 * self.eps * max(geometry.scale(self.scene), float(np.abs(self.scene.camera.origin).max()))
+        height = np.abs(dot(found["nq"], found["q"] - self.places.p[:, rows]))
+        if "light.cos" in self.rebuilt:
+            height = np.minimum(
+                height, np.abs(dot(self.places.n[:, rows], found["q"] - self.places.p[:, rows]))
+            )
+        with np.errstate(all="ignore"):
+            term = found["f"] * found["Le"] * found["cos"] * found["w"] * found["visible"]
+            implied = term.max(axis=0) / direct.max(axis=0)
+            near = np.abs(implied / found["pdf"] - 1.0) <= 2.0 * off / height
+        found["pdf"] = np.where(near & np.isfinite(implied), implied, found["pdf"])
+
+    def _beneath(self, found, rows):
+        """Below the horizon the cosine is its size, and where nothing could arrive nothing is seen: others
+        log a cosine of 0 there, and shadow rays that count for nothing."""
+        if any(found.get(name) is None for name in ("wi", "cos", "f")):
+            return
+        along = dot(self.places.n[:, rows], found["wi"])
+        found["cos"] = np.where((along <= 0.0) & (found["cos"] <= 0.0), np.abs(along), found["cos"])
+        if found.get("visible") is not None and found.get("Le") is not None:
+            could = (found["f"] * found["Le"]).any(axis=0) & (found["cos"] > 0.0)
+            found["visible"] = np.where(could, found["visible"], 0.0)
+
+    def _lamps(self, q, wi):
+        """The lamp's primitive (K,) that each light point lies on."""
+        shining = np.flatnonzero(self.scene.light_of >= 0)
+        if not shining.size:
+            return np.full(q.shape[1], -1)
+        if shining.size == 1:
+            return np.full(q.shape[1], shining[0])
+        reach = 0.1 * geometry.NEAR * geometry.scale(self.scene)
+        t, primitive = geometry.met(self.scene, q - reach * wi, wi)
+        fine = (np.abs(t - reach) < reach) & (self.scene.light_of.take(np.maximum(primitive, 0)) >= 0)
+        return np.where(fine & (primitive >= 0), primitive, shining[0])
+
+    def _radiance(self, primitive, front):
+        area = self.scene.lights.area if self.scene.lights is not None else None
+        if area is None:
+            return np.zeros((3, primitive.size))
+        light = self.scene.light_of.take(np.maximum(primitive, 0))
+        lit = (light >= 0) & front & (primitive >= 0)
+        return np.where(lit, area.radiance.take(np.maximum(light, 0), axis=1, mode="clip"), 0.0)
+
+    def _density(self, found, p, ng):
+        """Density of light samples per solid angle, of that per area where it was logged."""
+        rows = self.rows["light"]
+        given = self.chain.given("light.pdf_area")[rows]
+        cos = -dot(ng, found["wi"])
+        with np.errstate(all="ignore"):
+            if given.all():
+                gap = found["q"] - p
+                said = self.chain.given("light.cos_light")[rows]
+                over = np.where(said, self.chain("light.cos_light")[rows], cos) if said.any() else cos
+                over = np.where(over > 0.0, over, cos)
+                pdf = self.chain("light.pdf_area")[rows] * dot(gap, gap) / over
+                return np.where(cos > 0.0, pdf, 0.0)
+            primitive = found["primitive"].astype(np.intp)
+            if (primitive < 0).any():
+                return None
+            pdf = self.scene.lights.area.pdf(primitive, p, found["q"], ng)
+        return np.where(cos > 0.0, pdf, 0.0)
+
+    def _lit_up(self, light, beta):
+        rows = self.rows["light"]
+        light["beta"] = None if beta is None else beta[:, rows]
+        if self._all_given("direct", rows):
+            with np.errstate(all="ignore"):
+                light["contribution"] = beta[:, rows] * self.chain("direct")[:, rows]
+        elif all(light.get(name) is not None for name in ("f", "Le", "cos", "pdf", "w", "visible")):
+            term = light["f"] * light["Le"] * light["cos"] * light["w"] * light["visible"]
+            with np.errstate(all="ignore"):
+                light["contribution"] = beta[:, rows] * np.where(light["pdf"] > 0.0, term / light["pdf"], 0.0)
+            self.rebuilt.add("light.contribution")
+        return light

@@ -1,0 +1,89 @@
+"""The command `castray log`."""
+
+from pathlib import Path
+
+import tracer
+from tracer.settings import TracerError
+from viewer.options import Json, print_json
+
+
+def log(
+    file: Path | None = None,
+    /,
+    *,
+    scene: str | None = None,
+    schema: bool = False,
+    header: Path | None = None,
+    json: Json = False,
+):
+    """Check the log of your own tracer: the first mistakes by line and field, and what castray makes of it.
+
+    Exit code 0 if it can be read, 2 if it cannot.
+
+    Parameters
+    ----------
+    file
+        A log in JSON Lines.
+    scene
+        The scene that it is of: a file, or the bare name of one that comes with castray.
+    schema
+        Print the page that documents the format.
+    header
+        Write castray.h there, which logs from C++.
+    """
+    from tracer.trace.jsonl import header_file, read_log, schema_text
+
+    if file is None and not schema and header is None:
+        raise TracerError("give a log, --schema or --header FILE")
+    if schema:
+        print(schema_text(), end="")
+    if header is not None:
+        _write(header, header_file())
+    if file is None:
+        return
+    found = read_log(file, None if scene is None else tracer.load(scene))
+    if json:
+        print_json(as_dict(found))
+        return
+    print(f"{file}: {_counts(found)}")
+    for mistake in found.mistakes:
+        print(mistake)
+    more = found.read.mistaken - len(found.mistakes)
+    if more:
+        print(f"... and {more} more mistakes")
+    for note in found.notes:
+        print(f"note: {note}")
+    if found.read_off:
+        said = ", ".join(f"{name} {value}" for name, value in found.read_off.items())
+        print(f"not declared, read off the numbers: {said}")
+
+
+def _write(path, source):
+    try:
+        path.write_bytes(source.read_bytes())
+    except OSError as error:
+        raise TracerError(f"{path}: {error.strerror or error}") from None
+
+
+def _counts(found):
+    if found.trace is None:
+        return f"{found.read.lines} lines; give --scene SCENE to see what they hold"
+    events = ", ".join(f"{t.path.size} {name}" for name, t in found.trace.tables.items() if t.path.size)
+    trace = found.trace
+    return f"{found.read.lines} lines, {trace.size} paths, {trace.vertices} vertices; events: {events}"
+
+
+def as_dict(found):
+    """Plain values, as `castray log --json` prints them."""
+    trace = found.trace
+    return {
+        "lines": found.read.lines,
+        "paths": None if trace is None else trace.size,
+        "vertices": None if trace is None else int(trace.vertices),
+        "events": {} if trace is None else {name: t.path.size for name, t in trace.tables.items()},
+        "mistakes": [vars(mistake) for mistake in found.mistakes],
+        "mistaken": found.read.mistaken,
+        "notes": list(found.notes),
+        "read_off": found.read_off,
+        "rebuilt": [] if trace is None else sorted(trace.rebuilt),
+    }
