@@ -20,7 +20,7 @@ COMMANDS = {
     "bsdf": "Put one material on the bench: its properties, albedo and Fresnel curves, and a plot.",
     "bench": "Measure run time against error: which estimator for this scene?",
     "export": "Write a scene as Mitsuba 3 XML, which castray and Mitsuba both read.",
-    "log": "Check the log of your own tracer; --header writes castray.h, which logs from C++.",
+    "log": "Check the log of your own tracer; write castray.h, which logs from C++.",
     "bugs": "List the bug zoo: what each bug looks like, and which law it breaks; draw them.",
 }
 

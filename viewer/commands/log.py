@@ -16,7 +16,9 @@ def log(
     header: Path | None = None,
     json: Json = False,
 ):
-    """Check the log of your own tracer: the first mistakes by line and field, and what castray makes of it.
+    """Check the log of your own tracer; write castray.h, which logs from C++.
+
+    It says the first mistakes by line and field, and what castray makes of the rest.
 
     Exit code 0 if it can be read, 2 if it cannot.
 

@@ -25,14 +25,16 @@ def met(scene, o, d):
 
 def onward(scene, o, d):
     """As met, for rays from logged points: what lies within rounding of the start is the surface that they
-    leave."""
+    leave, and is given as a third, -1 for none."""
     t, primitive = met(scene, o, d)
+    left = np.full(t.shape, -1)
     again = np.flatnonzero(t < 1e-4 * scale(scene))
     if again.size:
         ahead = t[again] + 1e-6 * scale(scene)
+        left[again] = primitive[again]
         far, other = met(scene, o[:, again] + ahead * d[:, again], d[:, again])
         t[again], primitive[again] = ahead + far, other
-    return t, primitive
+    return t, primitive, left
 
 
 def primitives_at(scene, o, d, p):

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.trace.jsonl import geometry
-from tracer.trace.jsonl.calls import Places
 from tracer.trace.jsonl.lines import Columns
+from tracer.trace.jsonl.places import Places
 
 
 def peeked(chain, places, scene):
@@ -17,7 +17,7 @@ def peeked(chain, places, scene):
         return chain, places
     wi = chain("bounce.wi")[:, at]
     o = places.p[:, at]
-    t, primitive = geometry.onward(scene, o, wi)
+    t, primitive, _ = geometry.onward(scene, o, wi)
     out = primitive < 0
     lamp = ~out & (scene.light_of.take(np.maximum(primitive, 0)) >= 0)
     fits = out | lamp
@@ -27,7 +27,8 @@ def peeked(chain, places, scene):
     p = o + np.where(out, 0.0, t) * wi
     primitive = np.where(out, -1, primitive)
     ng, n = geometry.surfaces(scene, p, wi, primitive)
-    more = Places(places.p[:, at], wi, ~out, p, -wi, n, ng, primitive, np.zeros(at.size, bool))
+    no = np.zeros(at.size, bool)
+    more = Places(places.p[:, at], wi, ~out, p, -wi, n, ng, primitive, no, no)
     path, level = np.r_[chain.path, chain.path[at]], np.r_[chain.level, chain.level[at] + 1]
     order = np.lexsort((level, path))
     columns = _longer(chain.columns, at).take(order)

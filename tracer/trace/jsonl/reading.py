@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
-from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, told
+from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, places, told
 from tracer.trace.trace import Table, Trace
 
 _UNIFORM = 0.5 / np.pi
@@ -104,17 +104,17 @@ def _of_calls(read, scene, exact, settings):
     chain = calls.chained(read.columns.pop(None))
     if not chain.path.size:
         return Trace(scene, settings, {"x": np.empty(0)}, {}, read.header.eps), chain.notes
-    places = calls.placed(chain, exact)
+    where = places.placed(chain, exact)
     if read.header.turned["n"] == "facing":
-        real, _ = geometry.surfaces(exact, places.p, places.d, places.primitive)
-        places.n *= np.where((places.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
-        places.ng = np.where(np.isfinite(real), real, places.ng)
-    notes = list(conventions.complaints_of_scene(chain, places, exact, settings, read.header))
-    chain, places = calls.culled(chain, places)
-    chain, places = peek.peeked(chain, places, exact)
+        real, _ = geometry.surfaces(exact, where.p, where.d, where.primitive)
+        where.n *= np.where((where.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
+        where.ng = np.where(np.isfinite(real), real, where.ng)
+    notes = list(conventions.complaints_of_scene(chain, where, exact, settings, read.header))
+    chain, where = places.culled(chain, where)
+    chain, where = peek.peeked(chain, where, exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
     sampled = "hemisphere" in read.header.options or settings.hemisphere == "uniform"
-    telling = told.Telling(chain, places, exact, settings, read.header.eps, known, sampled)
+    telling = told.Telling(chain, where, exact, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
     paths = _paths(

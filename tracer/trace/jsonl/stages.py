@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tracer.trace.jsonl import geometry
-from tracer.trace.jsonl.calls import Places
+from tracer.trace.jsonl.places import Places
 from tracer.trace.trace import Table
 
 
