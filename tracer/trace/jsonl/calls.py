@@ -62,7 +62,7 @@ def chained(columns):
     notes, size = [], columns.size
     call, parent = _numbered(columns, rows)
     order = np.lexsort((call, rows))
-    columns, rows, call, parent = columns.take(order), rows[order], call[order], parent[order]
+    rows, call, parent = rows[order], call[order], parent[order]
     most = int(call.max()) + 2
     keys = rows * most + call
     above = np.searchsorted(keys, rows * most + parent)
@@ -92,9 +92,9 @@ def chained(columns):
     cut = np.unique(rows[level < 0]).size
     if cut:
         notes.append(f"{cut} paths lack a call, or have one twice: these calls are left out")
-    columns, rows, level = columns.take(keep), rows[keep], level[keep]
-    order = np.lexsort((level, rows))
-    columns, rows, level = columns.take(order), rows[order], level[order]
+    order, rows, level = order[keep], rows[keep], level[keep]
+    nested = np.lexsort((level, rows))
+    columns, rows, level = columns.take(order[nested]), rows[nested], level[nested]
     _, rows = np.unique(rows, return_inverse=True)
     last = np.ones(rows.size, bool)
     last[:-1] = rows[1:] != rows[:-1]

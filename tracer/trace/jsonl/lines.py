@@ -46,8 +46,8 @@ class Columns:
         return self.line.size
 
     def take(self, rows):
-        """Some of the lines."""
-        values = {name: column[..., rows] for name, column in self.values.items()}
+        """Some of the lines; this one's columns are given up one by one, to hold nothing twice."""
+        values = {name: self.values.pop(name)[..., rows] for name in list(self.values)}
         return Columns(self.line[rows], values, {name: mask[rows] for name, mask in self.given.items()})
 
 
@@ -268,5 +268,5 @@ class Gathering:
                     values[name][..., at : at + lines.size] = block.pop(name)
                     given[name][at : at + lines.size] = True
                 at += lines.size
-        order = np.argsort(line, kind="stable")
-        return Columns(line, values, given).take(order)
+        found = Columns(line, values, given)
+        return found if (np.diff(line) >= 0).all() else found.take(np.argsort(line, kind="stable"))

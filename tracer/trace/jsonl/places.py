@@ -60,6 +60,7 @@ def placed(chain, scene):
         geometry.at_edges(scene, p, chain("hit.n"), d, primitive, np.flatnonzero(chain.given("hit.n") & hit))
     if not logged.any():
         unclear |= ~hit & ~chain.last
+        unclear[1:] |= hit[1:] & (primitive[1:] == primitive[:-1]) & (chain.level[1:] > 0)
         unclear[1:] |= (left[1:] >= 0) & (left[1:] != primitive[:-1]) & (chain.level[1:] > 0)
     ng, n = geometry.surfaces(scene, p, d, primitive)
     wo = -d

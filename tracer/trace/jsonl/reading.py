@@ -36,7 +36,8 @@ def read_log(path, scene=None, options=None):
         read.header.options.update(options)
     read_off = _read_off(read)
     settings = header.settings_of(read.header, read_off)
-    notes = _notes(read)
+    settings, without = _without_lights(read, settings)
+    notes = _notes(read) + without
     if scene is None:
         return Log(read, None, tuple(notes), read_off)
     if settings.width is None or settings.height is None:
@@ -49,6 +50,15 @@ def read_log(path, scene=None, options=None):
     if not trace.size:
         raise TracerError(f"{path}: no path is whole; {'; '.join(more)}")
     return Log(read, trace, tuple(notes + more), read_off)
+
+
+def _without_lights(read, settings):
+    """Settings for a log that has no light samples, so that none are missed, and a note on it."""
+    names = set(read.columns) | set(getattr(read.columns.get(None), "values", ()))
+    if settings.integrator == "walk" or any(str(n).startswith(("light", "direct")) for n in names):
+        return settings, []
+    note = "no light samples are logged (light.q, ..., direct): nothing of direct light can be checked"
+    return replace(settings, integrator="walk", strategy="mis"), [note]
 
 
 def _tables(scene):
@@ -94,9 +104,6 @@ def _read_off(read):
         found["hemisphere"] = "uniform"
     if _column(read, "light", "pdf_area").size and not _column(read, "light", "pdf").size:
         found["light_sampling"] = "area"
-    lit = any(name.startswith(("light.", "direct")) for name in getattr(read.columns.get(None), "values", ()))
-    if not lit and "light" not in read.columns:
-        found["integrator"] = "walk"
     return {name: value for name, value in found.items() if name not in read.header.options}
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 # What printf and others make of numbers that are none, outside of strings.
 _SPELLED = re.compile(r"(?<=[\[:,\s])([+-]?)(nan(?:\([^)]*\)|\w*)|inf(?:inity)?|1\.#\w+)(?=[\],}\s])", re.I)
+_scan = json.JSONDecoder().scan_once
 _WORDS = {
     "nan": np.nan, "-nan": np.nan, "inf": np.inf, "+inf": np.inf, "-inf": -np.inf,
     "infinity": np.inf, "+infinity": np.inf, "-infinity": -np.inf,
@@ -17,16 +18,24 @@ _WORDS = {
 def decoded(raw):
     """(the object, "") of a line of bytes, or (None, what is wrong with it)."""
     try:
-        return json.loads(raw), ""
+        text = raw.decode("utf-8")
+        record, end = _scan(text, 0) if text[:1] == "{" else (json.loads(text), len(text))
+        if text[end:].strip():
+            return None, f"not JSON: more after the object, at column {end + 1}"
+        return record, ""
     except UnicodeDecodeError:
         return None, "not UTF-8"
     except RecursionError:
         return None, "nested too deeply; give calls lines of their own"
-    except ValueError as error:
+    except (json.JSONDecodeError, StopIteration) as error:
         try:
             return json.loads(_SPELLED.sub(_json_number, raw.decode("utf-8"))), ""
         except (ValueError, RecursionError):
-            return None, f"not JSON: {getattr(error, 'msg', error)} at column {getattr(error, 'colno', 0)}"
+            if isinstance(error, json.JSONDecodeError):
+                return None, f"not JSON: {error.msg} at column {error.colno}"
+            return None, f"not JSON: no value at column {error.value + 1}"
+    except ValueError as error:  # a whole number of thousands of digits
+        return None, f"not JSON: {error}"
 
 
 def _json_number(match):
@@ -45,12 +54,9 @@ def plain_numbers(f, column):
         flat = list(chain.from_iterable(column))
     else:
         flat = column
-    allowed = {bool, int, float} if f.domain == "flag" else {int, float}
-    if not set(map(type, flat)) <= allowed:
-        return None
     try:
         array = np.array(flat, np.float64)
-    except OverflowError:
+    except (OverflowError, TypeError, ValueError):
         return None
     return array.reshape(-1, f.shape[0]).T if f.shape else array
 

@@ -38,6 +38,12 @@ class Stages:
         guessed = chain.last & places.hit & ~self.dark & worked & np.isfinite(self.q)
         if chain.given("roulette.survived").any():
             guessed &= ~chain.given("roulette.survived")
+        # Who looks ahead and calls himself at dark surfaces only has no calls that meet a lamp or nothing:
+        # then what ends a path is not to be told from roulette, unless that is logged.
+        shining = self.scene.light_of.take(np.maximum(places.primitive, 0)) >= 0
+        seen = chain.any("roulette.") | ((chain.level > 0) & (~places.hit | shining))
+        self.ends_known = bool(seen.any()) or not self.scene.has_lights
+        guessed &= self.ends_known
         self.lost = (told_lost & chain.last) | guessed
         self.bounced = bounced & ~self.lost & places.hit
         self.played = np.isfinite(self.q) & (self.bounced | self.lost)

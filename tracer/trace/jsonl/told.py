@@ -51,8 +51,8 @@ class Telling(Lights, Bounces):
     def _own(self):
         """Emission that each call adds, (3, N): as logged; what one without other terms returned; else 0."""
         chain = self.chain
-        if not chain.given("returned").any() and not chain.given("emission").any():
-            return None
+        if not any(chain.given(name).any() for name in ("direct", "indirect", "emission")):
+            return None  # of the sum that was returned nothing can be told apart
         own = np.zeros((3, chain.path.size))
         if chain.given("returned").any():
             alone = chain.given("returned") & chain.last & ~chain.given("direct") & ~chain.given("indirect")
@@ -123,7 +123,7 @@ class Telling(Lights, Bounces):
         return {
             "probability": self.q[rows],
             "u": self._said("roulette", "u"),
-            "survived": self.bounced[rows],
+            "survived": self.bounced[rows] if self.ends_known else None,
             "beta": after[:, rows],
         }
 
@@ -152,7 +152,7 @@ class Telling(Lights, Bounces):
         level = self.chain.level[rows]
         if open_.size and (level[open_] == level.max()).all() and (self.roulette_known or level.max() > 0):
             reason[open_] = _END["max_depth"]
-        elif open_.size and self.roulette_known:
+        elif open_.size and self.roulette_known and self.ends_known:
             reason[open_] = _END["absorbed"]
         self.rebuilt.add("end.reason")
         found = {"reason": reason if (reason >= 0).all() else None, "radiance": None}
