@@ -8,7 +8,7 @@ import numpy as np
 
 # What printf and others make of numbers that are none, outside of strings.
 _SPELLED = re.compile(r"(?<=[\[:,\s])([+-]?)(nan(?:\([^)]*\)|\w*)|inf(?:inity)?|1\.#\w+)(?=[\],}\s])", re.I)
-_scan = json.JSONDecoder().scan_once
+_object = json.JSONDecoder().raw_decode
 _WORDS = {
     "nan": np.nan, "-nan": np.nan, "inf": np.inf, "+inf": np.inf, "-inf": -np.inf,
     "infinity": np.inf, "+infinity": np.inf, "-infinity": -np.inf,
@@ -19,7 +19,7 @@ def decoded(raw):
     """(the object, "") of a line of bytes, or (None, what is wrong with it)."""
     try:
         text = raw.decode("utf-8")
-        record, end = _scan(text, 0) if text[:1] == "{" else (json.loads(text), len(text))
+        record, end = _object(text) if text[:1] == "{" else (json.loads(text), len(text))
         if text[end:].strip():
             return None, f"not JSON: more after the object, at column {end + 1}"
         return record, ""
@@ -27,13 +27,11 @@ def decoded(raw):
         return None, "not UTF-8"
     except RecursionError:
         return None, "nested too deeply; give calls lines of their own"
-    except (json.JSONDecodeError, StopIteration) as error:
+    except json.JSONDecodeError as error:
         try:
             return json.loads(_SPELLED.sub(_json_number, raw.decode("utf-8"))), ""
         except (ValueError, RecursionError):
-            if isinstance(error, json.JSONDecodeError):
-                return None, f"not JSON: {error.msg} at column {error.colno}"
-            return None, f"not JSON: no value at column {error.value + 1}"
+            return None, f"not JSON: {error.msg} at column {error.colno}"
     except ValueError as error:  # a whole number of thousands of digits
         return None, f"not JSON: {error}"
 
