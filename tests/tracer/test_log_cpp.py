@@ -178,3 +178,17 @@ def test_a_vertex_takes_less_than_850_bytes_with_all_that_can_be_said(logged, co
 def test_the_header_is_ascii_and_its_lines_are_short():
     text = header_file().read_bytes()
     assert text.isascii() and max(map(len, text.splitlines())) <= 120
+
+
+def test_a_mirrored_picture_is_told_and_can_be_declared(logged, cornell):
+    path, _ = logged()
+    head, *calls = (json.loads(line) for line in path.read_text(encoding="ascii").splitlines())
+    turned = [call | {"x": SIZE - 1 - call["x"]} for call in calls]
+
+    def notes(head):
+        path.write_text("\n".join(map(json.dumps, [head, *turned])) + "\n", encoding="ascii")
+        return [note for note in read_log(path, cornell).notes if "mirrored" in note]
+
+    assert notes(head) == ['your picture is mirrored: declare "x": "left" in the header']
+    assert notes(head | {"x": "left"}) == []
+    assert findings(path, cornell) == []
