@@ -7,6 +7,7 @@ import numpy as np
 from tracer.events import KINDS
 from tracer.settings import TracerError
 from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, places, told
+from tracer.trace.jsonl.compact import compact
 from tracer.trace.trace import Table, Trace
 
 _UNIFORM = 0.5 / np.pi
@@ -121,15 +122,14 @@ def _of_calls(read, scene, exact, settings):
     chain, where = peek.peeked(chain, where, exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
     sampled = "hemisphere" in read.header.options or settings.hemisphere == "uniform"
-    telling = told.Telling(chain, where, exact, settings, read.header.eps, known, sampled)
+    telling = told.Telling(chain, where, exact, scene.dtype, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
     paths = _paths(
         tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size
     )
-    tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
     rebuilt = frozenset(telling.rebuilt)
-    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps, rebuilt), [
+    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt), [
         *chain.notes,
         *notes,
     ]
@@ -172,33 +172,6 @@ def _paths(tables, place, size):
     return paths
 
 
-_WHOLE = {
-    (kind.name, f.name)
-    for kind in KINDS
-    for f in kind.fields
-    if f.domain in ("index", "shape", "bsdf", "light", "choice")
-}
-_FLAGS = {(kind.name, f.name) for kind in KINDS for f in kind.fields if f.domain == "flag"}
-
-
-def _compact(table, dtype):
-    return replace(table, columns=_small(table.columns, dtype))
-
-
-def _small(columns, dtype):
-    """The columns in the precision of the settings, whole numbers and flags as such."""
-    whole = {name for _, name in _WHOLE} | {"x", "y", "sample", "end", "vertices"}
-    flags = {name for _, name in _FLAGS}
-
-    def small(name, column):
-        if name in whole:
-            return column.astype(np.int64 if name != "primitive" else np.int32)
-        with np.errstate(over="ignore", invalid="ignore"):
-            return column.astype(bool) if name in flags else column.astype(dtype)
-
-    return {name: small(name, column) for name, column in columns.items()}
-
-
 def _of_events(read, scene, exact, settings):
     """The Trace of lines that are events already."""
     keys = [_keys(found) for found in read.columns.values()]
@@ -228,8 +201,10 @@ def _of_events(read, scene, exact, settings):
         tables[kind] = Table(path[order], step[order], depth[order], columns)
     _with_ends(tables, first.size)
     paths = _paths(tables, place, first.size)
-    tables = {name: _compact(table, scene.dtype) for name, table in tables.items()}
-    return Trace(scene, settings, _small(paths, scene.dtype), tables, read.header.eps), _of_tables(
+    tables = {
+        name: replace(table, columns=compact(table.columns, scene.dtype)) for name, table in tables.items()
+    }
+    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps), _of_tables(
         exact, tables
     )
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tracer.trace.jsonl import geometry
+from tracer.trace.jsonl.compact import compact
 from tracer.trace.jsonl.places import Places
 from tracer.trace.trace import Table
 
@@ -17,6 +18,7 @@ class Stages:
     chain: Any
     places: Places
     scene: Any  # of 64 bits
+    dtype: Any  # of the tables
     settings: Any
     eps: float
     roulette_known: bool
@@ -93,6 +95,7 @@ class Stages:
         if self.chain.given("depth").any():
             np.copyto(depth, self.chain.columns.values["depth"], where=self.chain.given("depth"))
         kept = {name: column for name, column in columns.items() if column is not None}
+        kept = compact(kept, self.dtype)
         return Table(self.chain.path[rows], self.steps[kind][rows], depth[rows], kept)
 
     def _said(self, kind, name, otherwise=None):

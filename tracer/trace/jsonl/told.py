@@ -16,21 +16,19 @@ class Telling(Lights, Bounces):
     """Makes tables of events of calls."""
 
     def tables(self):
-        """Name of a kind -> Table, and the radiance (3, P) that paths returned, None if not logged."""
-        light = self._light()
+        """Name of a kind -> Table, made one after the other to hold little at once."""
         bounce = self._bounce()
         beta, after_bounce, after = self._throughputs(bounce)
-        self.beta = beta
-        found = {
-            "camera": self._camera(),
-            "hit": self._hit(beta),
-            "light": self._lit_up(light, beta),
-            "bounce": self._bounced(bounce, beta, after_bounce),
-            "roulette": self._roulette(after),
-            "escape": self._escaped(beta),
-            "end": self._end(),
+        columns = {
+            "camera": self._camera,
+            "hit": lambda: self._hit(beta),
+            "light": lambda: self._lit_up(self._light(), beta),
+            "bounce": lambda: self._bounced(bounce, beta, after_bounce),
+            "roulette": lambda: self._roulette(after),
+            "escape": lambda: self._escaped(beta),
+            "end": self._end,
         }
-        return {kind.name: self._table(kind.name, found[kind.name]) for kind in KINDS}
+        return {kind.name: self._table(kind.name, columns[kind.name]()) for kind in KINDS}
 
     def _camera(self):
         rows = self.rows["camera"]
