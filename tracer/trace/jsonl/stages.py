@@ -10,6 +10,8 @@ from tracer.trace.jsonl.compact import compact
 from tracer.trace.jsonl.places import Places
 from tracer.trace.trace import Table
 
+_LEAKS = 1e-3  # share of calls that meet nothing because a ray slipped through an edge
+
 
 @dataclass
 class Stages:
@@ -43,8 +45,9 @@ class Stages:
         # Who looks ahead and calls himself at dark surfaces only has no calls that meet a lamp or nothing:
         # then what ends a path is not to be told from roulette, unless that is logged.
         shining = self.scene.light_of.take(np.maximum(places.primitive, 0)) >= 0
-        seen = chain.any("roulette.") | ((chain.level > 0) & (~places.hit | shining))
-        self.ends_known = bool(seen.any()) or not self.scene.has_lights
+        inner = chain.level > 0
+        seen = np.count_nonzero(inner & (~places.hit | shining)) > _LEAKS * np.count_nonzero(inner)
+        self.ends_known = bool(chain.any("roulette.").any()) or bool(seen) or not self.scene.has_lights
         guessed &= self.ends_known
         self.lost = (told_lost & chain.last) | guessed
         self.bounced = bounced & ~self.lost & places.hit
