@@ -156,8 +156,10 @@ class _Work:
         while True:
             self._crew.greet(self._job)
             for line in self._crew.ready:
-                self._ask(line)
-            task = next(self._tasks, None)
+                self._ask(line, 1)
+            task = next(self._tasks, None)  # before anybody gets a second one: there may be few
+            for line in self._crew.ready:
+                self._ask(line, IN_FLIGHT)
             self._collect(0.0)
             if task is not None:
                 self._done[task[0]] = self._job(task[1])
@@ -169,10 +171,10 @@ class _Work:
                 yield self._done.pop(number)
                 number += 1
 
-    def _ask(self, line):
-        """Give a child what it can take."""
+    def _ask(self, line, most):
+        """Give a child tasks until it has so many."""
         numbers = self._asked[line]
-        while len(numbers) < IN_FLIGHT and (task := next(self._tasks, None)) is not None:
+        while len(numbers) < most and (task := next(self._tasks, None)) is not None:
             numbers.append(task[0])
             line.send(("task", task[1]))
 
