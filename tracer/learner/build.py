@@ -58,7 +58,6 @@ class Builder:
             zero = np.zeros(3)
             self._put(ESCAPE, call.depth, d=call.ray.direction.plain, Le=zero, w=0.0, contribution=zero)
             return "escaped", 0
-        self._wo = -call.ray.direction
         self._hit(call, beta, pdf, terms)
         for sample in call.lights:
             self._light(call, beta, terms, sample)
@@ -129,7 +128,7 @@ class Builder:
             distance=distance,
             Le=sample.emission.value * (cos_light > 0.0),
             pdf=pdf_area * distance * distance / cos_light if cos_light > 0.0 else 0.0,
-            f=_used_or_right(used, "f", lambda: self._f(call.hit, wi)),
+            f=_used_or_right(used, "f", lambda: _f(call, Vector(*wi))),
             cos=_or(_cosine(used, call.hit.n), abs(cos)),
             w=float(value.any() or cos > 0.0),  # 0 where nothing can arrive
             beta=beta,
@@ -140,7 +139,7 @@ class Builder:
     def _bounce(self, call, child, used, beta):
         """The BOUNCE to the inner call, its `beta` still to come; what that would be by f, cos and pdf."""
         wi = child.ray.direction
-        f = _used_or_right(used, "f", lambda: self._f(call.hit, wi.plain))
+        f = _used_or_right(used, "f", lambda: _f(call, wi))
         pdf = _used_or_right(
             used, "pdf", lambda: call.hit.material.pdf(wi, -call.ray.direction, call.hit.n).value
         )
@@ -150,10 +149,6 @@ class Builder:
         )
         with np.errstate(all="ignore"):
             return beta * f * cos / pdf
-
-    def _f(self, hit, wi):
-        """What the BSDF has to be there."""
-        return hit.material.eval(Vector(*wi), self._wo, hit.n).value
 
     def _roll(self, call, beta, roll, survived):
         return self._put(
@@ -269,6 +264,11 @@ def _end_of(call):
     if _rolled(call) is not None:
         return "roulette"
     return "black" if call.hit.emission else "absorbed"
+
+
+def _f(call, wi):
+    """What the BSDF has to be there, (3,)."""
+    return call.hit.material.eval(wi, -call.ray.direction, call.hit.n).value
 
 
 def _used_or_right(leaves, kind, right):

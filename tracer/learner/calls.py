@@ -24,9 +24,7 @@ class Call:
 
     ray: Ray
     depth: int  # calls around it
-    asked_depth: Any  # what it was told
     hit: Any = None  # the Hit of its own ray
-    rays: list = field(default_factory=list)  # asked of the scene
     lights: list = field(default_factory=list)  # LightSamples
     randoms: list = field(default_factory=list)  # leaves
     children: list = field(default_factory=list)  # Calls
@@ -49,7 +47,7 @@ class Runner:
 
     def _traced(self, scene, ray, depth=0, *more):
         """cast_ray with its call kept."""
-        call = Call(ray, len(self._stack), depth)
+        call = Call(ray, len(self._stack))
         if len(self._stack) >= MOST_DEPTH:
             raise Runaway(
                 f"cast_ray called itself {MOST_DEPTH} times without an end: is its roulette played, "
@@ -78,9 +76,3 @@ def colour(returned):
     found = known(returned)
     value = np.broadcast_to(np.asarray(found.value, np.float64), (3,))
     return Value(value, found.terms)
-
-
-def pixels_of(width, height, every):
-    """Numbers (P,) of every `every`-th pixel in x and y, line by line."""
-    y, x = np.mgrid[every // 2 : height : every, every // 2 : width : every]
-    return (y * width + x).ravel()

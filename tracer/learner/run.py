@@ -49,7 +49,8 @@ def run(path, scene, settings, seconds=300.0):
         if "error" in told:
             raise TracerError(told["error"])
         found = Settings(**told["settings"])
-        return tuple(_read(name, load(scene).at(found), found) for name in names)
+        ready = load(scene).at(found)
+        return tuple(_read(name, ready, found) for name in names)
 
 
 def _ended(asked, seconds, path):

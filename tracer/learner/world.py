@@ -125,14 +125,11 @@ class World:
         low, high = scene.bounds()
         self._least = _START * float(np.linalg.norm(np.subtract(high, low)))
         self.lamp_area = self._faces.lamp_area
-        self._begin(0)
-
-    def _begin(self, seed):
-        self._random = random.Random(seed)
+        self._random = random.Random(0)
 
     def start(self, pixel, sample, seed):
         """Begin a path: its random numbers depend on nothing else."""
-        self._begin(f"{seed} {pixel} {sample}")
+        self._random = random.Random(f"{seed} {pixel} {sample}")
 
     def draw(self):
         """A plain random number in [0, 1)."""
@@ -150,8 +147,6 @@ class World:
         own = getattr(ray.origin, "face", None)
         least = self._least if own is None else 0.0
         found = self._faces.nearest(ray.origin.plain, ray.direction.plain, least, own)
-        if self.log is not None:
-            self.log.rays.append(ray)
         if found is None:
             return None
         t, face = found

@@ -57,18 +57,15 @@ def surrounding(evidence):
         around = evidence.scene.environment(d)
         return np.zeros_like(d) if around is None else around[0]
 
+    return _of_escapes(evidence, "Le", value)
+
+
+def _of_escapes(evidence, name, value):
+    """The column of that name of every ESCAPE beside value(d)."""
     inputs = {"d": (evidence("escape.d"), evidence.off_unit)}
-    rows = np.arange(evidence.count("escape"))
-    return judged(
-        evidence,
-        "escape",
-        rows,
-        evidence("escape.Le"),
-        value,
-        inputs,
-        "Le",
-        sound=evidence.is_unit("escape.d"),
-    )
+    rows, recorded = np.arange(evidence.count("escape")), evidence(f"escape.{name}")
+    sound = evidence.is_unit("escape.d")
+    return judged(evidence, "escape", rows, recorded, value, inputs, name, sound=sound)
 
 
 def last_density(evidence):
@@ -104,18 +101,7 @@ def sky_density(evidence):
     """pdf_light of an ESCAPE into an environment."""
     if evidence.scene.lights is None or not evidence.scene.lights.surround:
         return None
-    inputs = {"d": (evidence("escape.d"), evidence.off_unit)}
-    rows = np.arange(evidence.count("escape"))
-    return judged(
-        evidence,
-        "escape",
-        rows,
-        evidence("escape.pdf_light"),
-        lambda d: evidence.scene.environment(d)[1],
-        inputs,
-        "pdf_light",
-        sound=evidence.is_unit("escape.d"),
-    )
+    return _of_escapes(evidence, "pdf_light", lambda d: evidence.scene.environment(d)[1])
 
 
 def _weight(kind, densities):
