@@ -6,6 +6,14 @@ import pytest
 import suite
 
 
+@pytest.fixture(scope="session", autouse=True)
+def english():
+    """Commands speak English, whatever language this machine's user reads."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("LANGUAGE", "en")
+        yield
+
+
 @pytest.fixture(scope="session")
 def suite_seed():
     """The seed of every statistical test."""

@@ -5,6 +5,7 @@ from functools import wraps
 from tracer.settings import TracerError
 from viewer import link as links
 from viewer.cursor import MOVES
+from viewer.words import LANGUAGES
 
 MOST_DIGITS = 9
 LONGEST_TAB = 64
@@ -15,7 +16,7 @@ class Calls:
 
     def __init__(self, window):
         self.window, self.session, self.state = window, window.session, window.state
-        names = ("go", "pick", "path", "event", "play", "open", "take", "dismiss", "truth")
+        names = ("go", "pick", "path", "event", "play", "open", "take", "speak", "dismiss", "truth")
         self.by_name = {name: self._told(getattr(self, name)) for name in names}
 
     def _told(self, call):
@@ -73,13 +74,23 @@ class Calls:
             self.window.paint()
         self.window.refresh("picture")
 
-    def take(self, tab, asked=""):
-        """A tab leads from now on; asked is the link in its address."""
+    def take(self, tab, asked="", language=None):
+        """A tab leads from now on; asked is the link in its address, language that of its browser."""
         if not (isinstance(tab, str) and 0 < len(tab) <= LONGEST_TAB):
             raise TracerError("tab: expected a short text")
         self.state.owner = tab
+        if language is not None:
+            self.speak(language)
         if asked and asked != self.state.link:
             self.open(asked)
+
+    def speak(self, language):
+        """Show everything in another language."""
+        if language not in LANGUAGES:
+            raise TracerError(
+                f"language: {str(language)[:20]!r} is not known; choose one of {', '.join(LANGUAGES)}"
+            )
+        self.window.speak(language)
 
     def dismiss(self):
         """Take the message away."""

@@ -53,14 +53,11 @@ def _camera(v, scene, say):
 
 
 def _hit(v, scene, say):
-    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"])) + _through(v, say)
+    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"]))
     if not np.any(v["Le"] > 0):
-        return text
-    return (
-        text
-        + " "
-        + say("caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere", w=short(v["w"]))
-    )
+        return say.sentences(text, _through(v, say))
+    counted = "caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere"
+    return say.sentences(text, _through(v, say), say(counted, w=short(v["w"])))
 
 
 def light_outcome(v):
@@ -86,13 +83,13 @@ def _light(v, scene, say):
         at=short(v["blocker_distance"]),
         w=short(v["w"]),
     )
-    return text + _through(v, say) if outcome == "lit" else text
+    return say.sentences(text, _through(v, say)) if outcome == "lit" else text
 
 
 def _through(v, say):
     """What coloured glass lets through on the way, if there is any."""
     left = v["transmittance"]
-    return "" if np.all(left == 1.0) else " " + say("caption.through", left=several(left))
+    return "" if np.all(left == 1.0) else say("caption.through", left=several(left))
 
 
 def _bounce(v, scene, say):
@@ -110,7 +107,7 @@ def _escape(v, scene, say):
 
 def _end(v, scene, say):
     reason = END.field("reason").choices[int(v["reason"])]
-    return say(f"caption.end.{reason}") + " " + say("caption.end", radiance=several(v["radiance"]))
+    return say.sentences(say(f"caption.end.{reason}"), say("caption.end", radiance=several(v["radiance"])))
 
 
 CAPTIONS = {
@@ -135,7 +132,7 @@ def why_dead(path, scene, say):
     elif len(reasons) == 1:
         lights = say("dead.all", n=len(samples), reason=next(iter(reasons)))
     else:
-        parts = ", ".join(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common())
+        parts = say.listed(*(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common()))
         lights = say("dead.some", n=len(samples), parts=parts)
     return say("dead", end=say(f"dead.{path.end}"), lights=lights)
 

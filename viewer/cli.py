@@ -7,22 +7,12 @@ import warnings
 from cyclopts import App, CycloptsError
 
 from tracer.settings import TracerError
+from viewer.words import LANGUAGES, Speaker, asked, use
 
-# name: what it does, as `castray --help` says it. Its module in viewer/commands/ has a function of that name.
-COMMANDS = {
-    "view": "Open the viewer: click a pixel, step through its paths.",
-    "render": "Render a scene to a picture.",
-    "inspect": "Show the events of a pixel's paths, and how their light adds up to the pixel.",
-    "doctor": "Hold the laws of light transport against a trace: what is wrong, where, and which mistake.",
-    "query": "Find the paths of a recording that did something.",
-    "diff": "Compare two pictures: is their difference more than noise?",
-    "check": "Run your own cast_ray and hold the laws of light transport against what it did.",
-    "bsdf": "Put one material on the bench: its properties, albedo and Fresnel curves, and a plot.",
-    "bench": "Measure run time against error: which estimator for this scene?",
-    "export": "Write a scene as Mitsuba 3 XML, which castray and Mitsuba both read.",
-    "log": "Check the log of your own tracer; write castray.h, which logs from C++.",
-    "bugs": "List the bug zoo: what each bug looks like, and which law it breaks; draw them.",
-}
+# Its module in viewer/commands/ has a function of that name; what it does is told by the table of words.
+COMMANDS = (
+    "view", "render", "inspect", "doctor", "query", "diff", "check", "bsdf", "bench", "export", "log", "bugs"
+)  # fmt: skip
 
 
 def _version():
@@ -31,14 +21,37 @@ def _version():
     return version("castray")
 
 
-app = App(
-    name="castray",
-    help="A step-through debugger for path tracing: click a pixel, walk its paths, read every number.",
-    help_format="plaintext",
-    version=_version,
-)
-for name, help in COMMANDS.items():
-    app.command(f"viewer.commands.{name}:{name}", name=name, help=help)
+def command_line(say):
+    """The command line, its help in one language."""
+    app = App(
+        name="castray",
+        help=f"{say('command')}\n\n{say('command.lang')}",
+        help_format="plaintext",
+        version=_version,
+        group_commands=say("help.commands"),
+        group_arguments=say("help.arguments"),
+        group_parameters=say("help.parameters"),
+    )
+    for name in COMMANDS:
+        app.command(f"viewer.commands.{name}:{name}", name=name, help=say(f"command.{name}"))
+    return app
+
+
+def _language(words):
+    """The language asked for by --lang, or by the environment; and the other words."""
+    left, found = [], asked(os.environ)
+    while words:
+        word, *words = words
+        name, equals, tag = word.partition("=")
+        if name != "--lang":
+            left.append(word)
+            continue
+        if not equals:
+            tag, *words = words or [""]
+        if tag not in LANGUAGES:
+            raise TracerError(f"lang: {tag!r} is not known; choose one of {', '.join(LANGUAGES)}")
+        found = tag
+    return found, left
 
 
 def _say(message, *_):
@@ -56,7 +69,9 @@ def main(words=None):
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _say
-            code = app(words, exit_on_error=False, print_error=False)
+            language, words = _language([*(sys.argv[1:] if words is None else words)])
+            use(language)
+            code = command_line(Speaker())(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
         _say(error)
         sys.exit(2)

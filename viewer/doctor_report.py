@@ -5,6 +5,7 @@ from rich.table import Table
 from rich.text import Text
 
 from viewer.numerals import several
+from viewer.words import Speaker
 
 _STYLE = {"fired": "bold red", "clean": "green", "not_testable": "dim"}
 _WIDEST = 100
@@ -12,56 +13,57 @@ _WIDEST = 100
 
 def print_diagnosis(diagnosis, trace, console=None):
     """Findings and rules of a Trace."""
-    console = console or Console(highlight=False)
+    console, say = console or Console(highlight=False), Speaker()
     console.width = min(console.width, _WIDEST)
     settings = trace.settings
-    console.print(
-        f"{trace.scene.name}, {settings.width} x {settings.height}, {settings.spp} spp, "
-        f"{settings.integrator}: "
-        f"{trace.size} paths, {trace.vertices} vertices"
-    )
+    about = {name: getattr(settings, name) for name in ("width", "height", "spp", "integrator")}
+    head = say("doctor.head", scene=trace.scene.name, paths=trace.size, vertices=trace.vertices, **about)
+    console.print(head)
     console.print()
     if not diagnosis.findings:
-        console.print(Text("No law is broken.", style="bold green"))
+        console.print(Text(say("doctor.nothing"), style="bold green"))
     for number, finding in enumerate(diagnosis.findings):
         if number == 0:
-            _print_first(finding, console)
+            _print_first(finding, say, console)
         else:
-            _print_other(finding, console)
+            _print_other(finding, say, console)
     console.print()
-    _print_rules(diagnosis.rules, console)
+    _print_rules(diagnosis.rules, say, console)
 
 
-def _print_first(finding, console):
-    console.print(_head(finding))
-    if _title(finding.bug):
-        console.print(Text(f"  {_title(finding.bug)}", style="italic"))
+def _print_first(finding, say, console):
+    console.print(_head(finding, say))
+    if finding.bug is not None:
+        console.print(Text(f"  {_bug_title(finding.bug, say)}", style="italic"))
     table = Table(box=None, show_header=False, padding=(0, 0, 0, 2))
-    for name, said in _said(finding):
-        table.add_row(Text(name, style="dim"), said)
+    for name, said in _said(finding, say):
+        table.add_row(Text(say(f"doctor.{name}"), style="dim"), said)
     console.print(table)
     console.print()
 
 
-def _head(finding):
-    head = Text(_bug(finding), style="bold red")
-    head.append(f"  {finding.title}: not so at {_share(finding)}", style="bold")
+def _head(finding, say):
+    head = Text(_bug(finding, say), style="bold red")
+    head.append(f"  {say('doctor.not_so', **_counted(finding, say))}", style="bold")
     return head
 
 
-def _bug(finding):
+def _bug(finding, say):
     if finding.bug is None:
         return finding.rule
-    return finding.bug + (f" (or {', '.join(finding.alike)})" if finding.alike else "")
+    return (
+        say("doctor.or", bug=finding.bug, others=say.listed(*finding.alike)) if finding.alike else finding.bug
+    )
 
 
-def _share(finding):
-    return f"{finding.count} of {finding.checked}"
+def _counted(finding, say):
+    title = say.optional(f"rule.{finding.rule}", finding.title)
+    return {"title": title, "count": finding.count, "checked": finding.checked}
 
 
-def _said(finding):
+def _said(finding, say):
     """Names and texts, line by line."""
-    yield "law", Text(finding.law)
+    yield "law", Text(say.optional(f"law.{finding.rule}", finding.law))
     yield "formula", Text(finding.formula, style="cyan")
     for name in ("recorded", "right"):
         value = getattr(finding, name)
@@ -70,63 +72,61 @@ def _said(finding):
     if finding.explanation:
         yield "why", Text(finding.explanation)
     if finding.p is not None:
-        yield "chance", Text(f"a right tracer does as badly once in {1 / max(finding.p, 1e-300):.3g} traces")
+        yield "chance", Text(say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}"))
     if finding.first is not None:
-        place = finding.first
-        event = (
-            ""
-            if place["depth"] is None
-            else f", depth {place['depth']}, event {place['step']} ({place['kind']})"
-        )
-        yield "first at", Text(f"pixel ({place['x']}, {place['y']}), sample {place['sample']}{event}")
+        yield "first", Text(_place(finding.first, say))
         if finding.command:
-            yield "see it", Text(finding.command)
+            yield "see", Text(finding.command)
 
 
-def _title(bug):
+def _place(first, say):
+    """Where a finding shows first."""
+    if first["depth"] is None:
+        return say("doctor.place", **{name: first[name] for name in ("x", "y", "sample")})
+    return say("doctor.place_event", **{**first, "kind": say(f"kind.{first['kind']}")})
+
+
+def _bug_title(bug, say):
     from lessons.zoo import ZOO
 
-    return ZOO[bug].title if bug in ZOO else None
+    return say.optional(f"bug.{bug}", ZOO[bug].title) if bug in ZOO else bug
 
 
 def _numbers(values):
     return several([float("nan") if v is None else v for v in values])
 
 
-def _print_other(finding, console):
-    line = (
-        _head(finding)
-        if finding.follows is None
-        else Text(
-            f"{finding.rule}  {finding.title}: not so at {_share(finding)}; follows from {finding.follows}",
-            style="dim",
-        )
-    )
-    console.print(line)
-    if finding.explanation and finding.follows is None:
-        console.print(Text(f"  {finding.explanation}"))
+def _print_other(finding, say, console):
+    if finding.follows is None:
+        console.print(_head(finding, say))
+        if finding.explanation:
+            console.print(Text(f"  {finding.explanation}"))
+        return
+    said = say("doctor.follows", cause=finding.follows, **_counted(finding, say))
+    console.print(Text(f"{finding.rule}  {said}", style="dim"))
 
 
-def _print_rules(verdicts, console):
+def _print_rules(verdicts, say, console):
     table = Table(box=None, pad_edge=False)
-    table.add_column("rule", no_wrap=True)
-    table.add_column("says", no_wrap=True)
+    for name in ("rule", "says"):
+        table.add_column(say(f"doctor.{name}"), no_wrap=True)
     for name in ("checked", "failed", "abstained"):
-        table.add_column(name, justify="right", no_wrap=True)
+        table.add_column(say(f"doctor.{name}"), justify="right", no_wrap=True)
     for verdict in sorted(verdicts, key=lambda v: v.state != "fired"):
         if verdict.state == "not_testable":
             continue
-        state = Text(verdict.state, style=_STYLE[verdict.state])
+        state = Text(say(f"doctor.{verdict.state}"), style=_STYLE[verdict.state])
         counts = (str(count or "") for count in (verdict.failed, verdict.abstained))
         table.add_row(verdict.rule.id, state, str(verdict.checked), *counts)
     console.print(table)
-    _print_untestable([v for v in verdicts if v.state == "not_testable"], console)
+    _print_untestable([v for v in verdicts if v.state == "not_testable"], say, console)
 
 
-def _print_untestable(verdicts, console):
+def _print_untestable(verdicts, say, console):
     """What could not be judged, and what is missing for it."""
     lacking = {}
     for verdict in verdicts:
         lacking.setdefault(verdict.missing, []).append(verdict.rule.id)
     for missing, rules in lacking.items():
-        console.print(Text(f"not testable here ({missing}): {', '.join(rules)}", style="dim"))
+        said = say("doctor.untestable", missing=missing, rules=say.listed(*rules))
+        console.print(Text(said, style="dim"))

@@ -3,7 +3,7 @@
 from viewer.panels import all_panels
 
 FRAME = """
-<castray-tab :owner="owner" :link="link" :x="picture.x" :y="picture.y"><template #default="{mine, take}">
+<castray-tab :owner="owner" :link="link" :x="picture.x" :y="picture.y" :language="language" :languages="languages"><template #default="{mine, take, speak}">
 <div class="castray" data-testid="castray" :data-link="link">
   <header>
     <h1><img src="castray/icon.svg" alt="" width="20" height="20"> {{ w.title }}</h1>
@@ -12,6 +12,8 @@ FRAME = """
     <span class="grow"></span>
     <span v-if="progress" class="progress" role="status" data-testid="progress">{{ progress }}</span>
     <span class="keys" aria-hidden="true"><kbd>←</kbd><kbd>→</kbd> {{ w.hint_events }} <kbd>↑</kbd><kbd>↓</kbd> {{ w.hint_paths }}</span>
+    <select :value="language" :aria-label="w.language" :title="w.language" data-testid="language" @change="speak($event.target.value)">
+      <option v-for="l in languages" :key="l.tag" :value="l.tag" :lang="l.tag">{{ l.name }}</option></select>
   </header>
   <aside class="left">%(left)s</aside>
   <section class="stage" :aria-label="w.stage" data-testid="stage">%(view)s

@@ -1,6 +1,7 @@
 """A pixel and its paths as text: event by event, names, numbers, units, and the ledger that adds up."""
 
 import numpy as np
+from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -15,15 +16,13 @@ _LEDGER_KINDS = ("hit", "light", "escape")
 def print_pixel(record, scene, console=None):
     """The pixel's samples, its brightest path event by event, and both sums."""
     console = console or Console(highlight=False, soft_wrap=True)
-    say = Speaker("en")
+    say = Speaker()
     settings = record.settings
-    console.print(
-        f"pixel ({record.x}, {record.y}) of {scene.name}, {settings.width} x {settings.height}, "
-        f"{settings.integrator}, seed {settings.seed}\n"
-    )
+    about = {name: getattr(settings, name) for name in ("width", "height", "integrator", "seed")}
+    console.print(say("inspect.head", x=record.x, y=record.y, scene=scene.name, **about) + "\n")
     chosen = max(record.paths, key=lambda path: float(np.sum(path.radiance, dtype=np.float64)))
     _print_path(chosen, scene, say, console)
-    _print_samples(record, chosen, console)
+    _print_samples(record, chosen, say, console)
 
 
 def print_needs(features, console=None):
@@ -35,74 +34,81 @@ def print_needs(features, console=None):
 
 
 def _print_path(path, scene, say, console):
-    console.print(Text(f"sample {path.sample}, event by event", style="bold"))
+    console.print(Text(say("inspect.path", sample=path.sample), style="bold"))
     explained = set()
     for event in path.events:
         console.print()
         head = Text(f"{event.step:>3}  {say(f'kind.{event.kind.name}')}", style="bold cyan")
-        head.append(f"  (depth {event.depth})  ", style="dim")
+        head.append(f"  ({say('inspect.depth', depth=event.depth)})  ", style="dim")
         head.append(caption(event, scene, say), style="default")
         console.print(head)
         for field in event.kind.fields:
             value = event.values[field.name]
             if applies(field, value):
-                _print_field(field, value, event.kind.name not in explained, scene, say, console)
-        explained.add(event.kind.name)
+                meaning = "" if event.kind in explained else say.meaning(event.kind, field.name)
+                _print_field(field, value, meaning, scene, say, console)
+        explained.add(event.kind)
     dead = why_dead(path, scene, say)
     if dead:
         console.print()
         console.print(dead)
-    _print_ledger(path, console)
+    _print_ledger(path, say, console)
 
 
-def _print_field(field, value, explain, scene, say, console):
+def _print_field(field, value, meaning, scene, say, console):
     """One line: name, value, unit, and what it means where the kind of event is met for the first time."""
     line = Text("     ")
     line.append(f"{field.name:<17}", style="green")
-    line.append(f"{shown(field, value, scene, say):<38} ")
+    said = shown(field, value, scene, say)
+    line.append(said + " " * max(1, 39 - cell_len(said)))
     line.append(f"{field.unit:<9}")
-    if explain:
-        line.append(field.meaning, style="dim")
+    line.append(meaning, style="dim")
     line.rstrip()
     console.print(line)
 
 
-def _print_ledger(path, console):
+def _table(title, names, left, say):
+    """An empty table; the column `left` has words, the others numbers."""
+    table = Table(title=say(f"inspect.{title}"), title_justify="left", box=None, title_style="bold")
+    for name in names:
+        table.add_column(say(f"inspect.{name}"), justify="left" if name == left else "right")
+    return table
+
+
+def _print_ledger(path, say, console):
     """Every contribution, and that they add up to the path's radiance."""
-    table = Table(title="what the path brings", title_justify="left", box=None, title_style="bold")
-    for name in ("event", "what", "red", "green", "blue"):
-        table.add_column(name, justify="left" if name == "what" else "right")
+    table = _table("brings", ("event", "what", "red", "green", "blue"), "what", say)
     total = np.zeros(3, path.radiance.dtype)
     for event in path.events:
         if event.kind.name in _LEDGER_KINDS:
             contribution = event.values["contribution"]
             total = total + contribution
             if contribution.any():
-                what = f"{event.kind.name}, depth {event.depth}"
+                what = say("inspect.source", kind=say(f"kind.{event.kind.name}"), depth=event.depth)
                 table.add_row(str(event.step), what, *(str(v) for v in contribution))
-    table.add_row("", "sum", *(str(v) for v in total), style="bold")
+    table.add_row("", say("inspect.sum"), *(str(v) for v in total), style="bold")
     console.print()
     console.print(table)
 
 
-def _print_samples(record, chosen, console):
+def _print_samples(record, chosen, say, console):
     """Every sample, and that their mean is the pixel."""
-    table = Table(title="what the pixel is made of", title_justify="left", box=None, title_style="bold")
-    for name in ("sample", "vertices", "end", "red", "green", "blue"):
-        table.add_column(name, justify="left" if name == "end" else "right")
+    table = _table("made_of", ("sample", "vertices", "end", "red", "green", "blue"), "end", say)
     for path in record.paths:
         vertices = sum(event.kind.name == "hit" for event in path.events)
         mark = "*" if path is chosen else ""
         radiance = (str(v) for v in path.radiance)
-        table.add_row(f"{mark}{path.sample}", str(vertices), path.end, *radiance)
-    table.add_row("mean", "", "", *(str(v) for v in record.value), style="bold")
+        table.add_row(
+            f"{mark}{path.sample}", str(vertices), say.optional(f"choice.{path.end}", path.end), *radiance
+        )
+    table.add_row(say("inspect.mean"), "", "", *(str(v) for v in record.value), style="bold")
     several, parts = len(record.paths) > 1, record.settings.parts
     if several and parts != 1:
-        table.add_row("its error", "", "", *(f"{v:.2g}" for v in np.sqrt(record.variance)))
+        table.add_row(say("inspect.error"), "", "", *(f"{v:.2g}" for v in np.sqrt(record.variance)))
     console.print()
     console.print(table)
     if several and parts == 1:
-        console.print(f"its error is not known; {NO_ERROR}")
+        console.print(say("inspect.unknown", why=NO_ERROR))
     elif several and parts:
-        console.print(f"its error comes from the spread of {parts} replicates")
-    console.print("* shown above; --sample K shows another" if several else "")
+        console.print(say("inspect.replicates", parts=parts))
+    console.print(say("inspect.shown") if several else "")

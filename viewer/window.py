@@ -8,6 +8,7 @@ from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
 from viewer.render import Painter
 from viewer.stage import Stage
+from viewer.words import LANGUAGES, Speaker
 
 PLAY_SECONDS = 0.8
 IN_THE_HEADER_ANYWAY = ("width", "height", "spp", "integrator")
@@ -19,7 +20,7 @@ class Window:
     def __init__(self, server, session, say):
         self.server, self.state, self.session, self.say = server, server.state, session, say
         self.stage = Stage(session.scene)
-        self.painter, self.playing = None, None
+        self.painter, self.playing, self.rendered = None, None, None
         self._build()
         self.refresh("picture")
 
@@ -32,11 +33,11 @@ class Window:
         from viewer.layout import template
 
         server, state = self.server, self.state
+        languages = [{"tag": tag, "name": name} for tag, name in LANGUAGES.items()]
         state.client_only("tab", "exposure")
         first_tab = next(p.name for p in all_panels() if p.place == "tab")
-        state.update(
-            {"tab": first_tab, "exposure": 0, "w": self.say.under("ui."), "owner": "", "touched": False}
-        )
+        state.update({"tab": first_tab, "exposure": 0, "owner": "", "touched": False, "languages": languages})
+        self._put_words()
         state.update(
             {"message": "", "progress": "", "playing": False, "rgb": b"", "camera": self.stage.camera}
         )
@@ -44,6 +45,18 @@ class Window:
             view = VtkLocalView(self.stage.window, ref="view", connect_parent=False, trame_server=server)
             html.Div(children=[template(view.html)], classes="fill")
         self.whole_stage, self._helper = view.update, get_helper(server)
+
+    def _put_words(self):
+        """What the page is told of its language."""
+        self.state.update({"w": self.say.under("ui."), "language": self.say.language})
+
+    def speak(self, language):
+        """Say everything in another language."""
+        if language != self.say.language:
+            self.say = Speaker(language)
+            self._put_words()
+            self._say_progress()
+            self.refresh("picture")
 
     def refresh(self, level):
         """Show again what depends on a level or on what follows from it."""
@@ -116,7 +129,8 @@ class Window:
         self.stop_painting()
         loop, settings = asyncio.get_running_loop(), self.session.settings
         blank = bytes(12 * settings.width * settings.height)
-        self.state.update({"rgb": blank, "progress": self.say("progress", percent=0, spp=1)})
+        self.state.rgb = blank
+        self._tell_progress(0, 1)
         painter = Painter(self.session.scene, settings)
 
         def here(call):
@@ -138,12 +152,21 @@ class Window:
         complete = spp == self.session.settings.spp
         with self.state as state:
             state.rgb = rgb.tobytes()
-            state.progress = "" if complete else self.say("progress", percent=0, spp=spp)
+            self._tell_progress(None if complete else 0, spp)
 
     def _progress(self, share, spp):
-        with self.state as state:
-            state.progress = self.say("progress", percent=round(100 * share), spp=spp)
+        with self.state:
+            self._tell_progress(share, spp)
+
+    def _tell_progress(self, share, spp):
+        """How far the picture is; share None: nothing is being rendered."""
+        self.rendered = None if share is None else {"percent": round(100 * share), "spp": spp}
+        self._say_progress()
+
+    def _say_progress(self):
+        self.state.progress = self.say("progress", **self.rendered) if self.rendered else ""
 
     def _failed(self, text):
         with self.state as state:
-            state.update({"message": text, "progress": ""})
+            self._tell_progress(None, 0)
+            state.message = text

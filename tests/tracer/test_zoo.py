@@ -107,9 +107,12 @@ def test_the_words_of_a_bug_are_sentences_and_short(bug):
 
 @every_bug
 def test_the_command_of_a_bug_asks_for_its_settings(bug):
-    from viewer.cli import app
+    from viewer.cli import command_line
+    from viewer.words import Speaker
 
-    _, bound, _ = app.parse_args(bug.command.removeprefix("castray ").split(), exit_on_error=False)
+    _, bound, _ = command_line(Speaker()).parse_args(
+        bug.command.removeprefix("castray ").split(), exit_on_error=False
+    )
     from viewer.options import settings_and_steps
 
     settings, steps = settings_and_steps(bound.arguments["options"])

@@ -8,6 +8,7 @@ from suite import castray
 from viewers import SMALL
 
 from tracer.events import KINDS
+from viewer.words import Speaker
 
 pytestmark = pytest.mark.browser
 
@@ -326,3 +327,25 @@ def test_nothing_is_cut_off(page, size):
         page.get_by_test_id(f"tab-{tab}").click()
         outside = page.evaluate(OUTSIDE)
         assert outside == []
+
+
+def test_the_browser_chooses_the_language_and_the_reader_another_that_is_kept(browser, small):
+    with browser.new_context(locale="zh-CN") as chinese:
+        page = chinese.new_page()
+        page.goto(small.address)
+        page.wait_for_selector("html[data-ready][lang=zh]")
+        start = "scene=cornell_unit&width=64&height=64&spp=8&max_depth=6&x=30&y=45&path=3&event=2"
+        page.evaluate("link => window.trame.trigger('open', [link])", start)
+        stands_at(page, x=30, y=45, path=3, event=2)
+        assert page.get_by_test_id("tab-event").inner_text() == Speaker("zh")("ui.tab_event")
+        kind, field = KINDS[2], "contribution"
+        meaning = page.get_by_test_id(f"field-{field}").locator("small")
+        assert meaning.inner_text() == Speaker("zh").meaning(kind, field)
+        link = truth(page)["link"]
+        page.get_by_test_id("language").select_option("en")
+        page.wait_for_selector("html[lang=en]")
+        assert meaning.inner_text() == kind.field(field).meaning
+        assert truth(page)["link"] == link == start  # it names no language
+        page.reload()
+        page.wait_for_selector("html[data-ready][lang=en]")
+        assert page.get_by_test_id("language").input_value() == "en"

@@ -1,5 +1,8 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
+import re
+from string import Formatter
+
 import numpy as np
 import pytest
 
@@ -7,9 +10,9 @@ import tracer
 from tracer.events import END_REASONS, KINDS
 from viewer.caption import caption, shown, why_dead
 from viewer.equation import formulas
-from viewer.words import WORDS, Speaker
+from viewer.words import LANGUAGES, Speaker, areas, table
 
-SAY = Speaker()
+SAY = Speaker("en")
 
 
 @pytest.fixture(scope="module", params=["cornell_unit", "cornell_glass", "furnace", "coloured_glass"])
@@ -73,6 +76,49 @@ def test_every_kind_and_every_end_has_its_words():
         assert SAY(f"caption.end.{reason}") and SAY(f"dead.{reason}")
 
 
-@pytest.mark.parametrize("language", WORDS)
-def test_every_language_has_all_the_words(language):
-    assert WORDS[language].keys() == WORDS["en"].keys()
+TABLES = [(area, tables) for area, tables in areas().items() if "en" in tables]
+
+
+def names(words):
+    """The {names} that a text has filled in."""
+    return {name for _, name, _, _ in Formatter().parse(words) if name is not None}
+
+
+@pytest.mark.parametrize(("area", "tables"), TABLES, ids=[area for area, _ in TABLES])
+def test_every_key_stands_in_every_language_and_has_the_same_values_filled_in(area, tables):
+    assert tables.keys() == LANGUAGES.keys()
+    for language, words in tables.items():
+        assert words.keys() == tables["en"].keys(), language
+        for key, said in words.items():
+            assert said.strip() or key.startswith("join."), key
+            assert names(said) == names(tables["en"][key]), (language, key)
+
+
+def test_no_key_stands_in_two_areas():
+    for language in LANGUAGES:
+        keys = [key for tables in areas().values() for key in tables.get(language, {})]
+        assert len(keys) == len(set(keys)) == len(table(language))
+
+
+@pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})
+def test_every_event_and_field_of_the_schema_is_explained_in_every_language(language):
+    declared = {f"event.{kind.name}" for kind in KINDS}
+    declared |= {f"field.{kind.name}.{field.name}" for kind in KINDS for field in kind.fields}
+    assert areas()["schema"][language].keys() == declared
+    choices = {c for kind in KINDS for field in kind.fields for c in field.choices}
+    assert {f"choice.{c}" for c in choices} <= table(language).keys()
+
+
+@pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})
+def test_a_caption_has_words_of_one_language_only(pixels, language):
+    """Names of shapes and numbers aside, Chinese sentences have no English in them."""
+    scene, say = pixels[0], Speaker(language)
+    own = {shape.name for shape in scene.shapes} | set(scene.light_names) | {"m"}
+    for scene, _, path in paths(pixels):
+        for said in [why_dead(path, scene, say), *(caption(event, scene, say) for event in path.events)]:
+            assert not set(re.findall(r"[a-z_]{1,}", re.sub(r"[\d.]+(e[+-]\d+)?", "", said))) - own
+
+
+def test_a_word_that_one_language_lacks_is_seen():
+    """The test above can fail."""
+    assert names("{a} and {b}") != names("{a}")

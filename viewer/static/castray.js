@@ -211,14 +211,22 @@
   };
 
   const KEYS = { ArrowLeft: "previous", ArrowRight: "next", ArrowUp: "up", ArrowDown: "down", Home: "first", End: "last" };
+  const CHOSEN = "castray-language"; // where the browser keeps it
   const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
   // One tab at a time: this one asks to lead, follows the link in its address, and hears the keys.
   const Tab = {
-    props: ["owner", "link", "x", "y"],
+    props: ["owner", "link", "x", "y", "language", "languages"],
     setup(props) {
       const trame = inject("trame"), mine = () => props.owner === self;
-      const take = () => trame.trigger("take", [self]);
+      const take = () => trame.trigger("take", [self, "", wanted()]);
+      // the language that was chosen in this browser before, or the first of its own that is known here
+      function wanted() {
+        const known = props.languages.map((l) => l.tag);
+        const tags = [localStorage.getItem(CHOSEN), ...navigator.languages].filter(Boolean);
+        return tags.map((tag) => tag.toLowerCase().split("-")[0]).find((tag) => known.includes(tag)) || props.language;
+      }
+      function speak(tag) { localStorage.setItem(CHOSEN, tag); trame.trigger("speak", [tag]); }
       const typing = (event) => /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
       function key(event) {
         if (!mine() || typing(event) || event.ctrlKey || event.altKey || event.metaKey) return;
@@ -247,13 +255,14 @@
         for (const kind of ["keypress", "keyup"]) window.addEventListener(kind, hush, true);
         window.addEventListener("hashchange", follow);
         const asked = window.location.hash.slice(1);
-        await trame.trigger("take", [self, asked]);
+        await trame.trigger("take", [self, asked, wanted()]);
         document.documentElement.dataset.ready = "true";
       });
       watch(() => [props.link, props.owner], () => { writeSoon(); show(); }, { flush: "post" });
-      return { mine, take };
+      watch(() => props.language, (tag) => { document.documentElement.lang = tag; }, { immediate: true });
+      return { mine, take, speak };
     },
-    template: `<slot :mine="mine()" :take="take"></slot>`,
+    template: `<slot :mine="mine()" :take="take" :speak="speak"></slot>`,
   };
 
   const SHAPES = {

@@ -1,0 +1,59 @@
+"""Every word that castray shows, in one table per language.
+
+A module in this folder that defines WORDS = {language: {key: words}} adds its area to the tables; nothing
+else needs to know it. Every key stands in every language with the same {names}; only what is worded where it
+is declared (the schema of events, the doctor's laws, the zoo, errors) has no English here.
+"""
+
+import importlib
+import pkgutil
+from functools import cache
+
+from viewer.words.language import LANGUAGES, asked, current, use
+
+__all__ = ["LANGUAGES", "Speaker", "areas", "asked", "current", "table", "use"]
+
+
+@cache
+def areas():
+    """Every area's tables by its name: {name: {language: {key: words}}}."""
+    modules = (importlib.import_module(f"{__name__}.{m.name}") for m in pkgutil.iter_modules(__path__))
+    found = {module.__name__.rpartition(".")[2]: vars(module).get("WORDS") for module in modules}
+    return {name: tables for name, tables in found.items() if tables}
+
+
+@cache
+def table(language):
+    """All words of a language by their keys."""
+    return {key: words for tables in areas().values() for key, words in tables.get(language, {}).items()}
+
+
+class Speaker:
+    """Looks words up: say("key", name=value). Without a language, in that of the terminal."""
+
+    def __init__(self, language=None):
+        self.language = language or current()
+        self.words = table(self.language)
+
+    def __call__(self, key, **values):
+        return self.words[key].format(**values)
+
+    def optional(self, key, otherwise):
+        """The words for a key, or other ones where the table has none."""
+        return self.words.get(key, otherwise)
+
+    def meaning(self, kind, field):
+        """What a field of an event means; the schema's own words unless the table has others."""
+        return self.optional(f"field.{kind.name}.{field}", kind.field(field).meaning)
+
+    def sentences(self, *said):
+        """Sentences one after another; empty ones are left out."""
+        return self.words["join.sentences"].join(s for s in said if s)
+
+    def listed(self, *said):
+        """Parts of a sentence one after another."""
+        return self.words["join.list"].join(said)
+
+    def under(self, prefix):
+        """All words of one panel, keyed by the rest of their name, for its template."""
+        return {k.removeprefix(prefix): v for k, v in self.words.items() if k.startswith(prefix)}
