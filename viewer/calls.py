@@ -25,7 +25,7 @@ class Calls:
             try:
                 return call(*args)
             except (TracerError, IndexError) as error:
-                self.state.message = str(error)
+                self.state.message = self.window.say.error(str(error))
                 return None
 
         return told

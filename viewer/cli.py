@@ -73,7 +73,7 @@ def main(words=None):
             use(language)
             code = command_line(Speaker())(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
-        _say(error)
+        _say(Speaker().error(" ".join(str(error).split())))
         sys.exit(2)
     except MemoryError:
         print("castray: not enough memory for that; try a smaller --size or fewer --spp", file=sys.stderr)

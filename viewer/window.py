@@ -169,4 +169,4 @@ class Window:
     def _failed(self, text):
         with self.state as state:
             self._tell_progress(None, 0)
-            state.message = text
+            state.message = self.say.error(text)

@@ -8,6 +8,7 @@ import tracer
 from lessons.zoo import FAMILIES, RIGHT, alike
 from tracer.settings import TracerError
 from viewer.progress import watched
+from viewer.words import Speaker
 
 SIDE, SPP = 96, 16  # longer side of a thumbnail in pixels, and its samples
 GAP = 2  # pixels of white between the wrong picture and the right one
@@ -15,28 +16,37 @@ GAP = 2  # pixels of white between the wrong picture and the right one
 
 def print_bugs(console):
     """Every family with its bugs: id, title, and how they look."""
+    say = Speaker()
     for family, members in FAMILIES.items():
-        table = Table(title=family, title_justify="left", title_style="bold", box=None, show_header=False)
+        table = Table(
+            title=say.optional(f"family.{family}", family),
+            title_justify="left",
+            title_style="bold",
+            box=None,
+            show_header=False,
+        )
         table.add_column(min_width=3, no_wrap=True, style="cyan")
         table.add_column()
         for bug in members:
-            table.add_row(bug.id, f"{bug.title}\n[dim]{bug.symptom}[/dim]")
+            title, symptom = title_of(bug, say), symptom_of(bug, say)
+            table.add_row(bug.id, f"{title}\n[dim]{symptom}[/dim]")
         console.print(table)
         console.print()
-    console.print("castray bugs ID says all about one; --bug ID plants it in render, inspect and view")
+    console.print(say("bugs.more"))
 
 
 def print_bug(bug, console):
     """All that the zoo knows of one bug."""
-    console.print(f"[bold cyan]{bug.id}[/] [bold]{bug.title}[/]")
+    say = Speaker()
+    console.print(f"[bold cyan]{bug.id}[/] [bold]{title_of(bug, say)}[/]")
     others = sorted(alike(bug.id) - {bug.id})
     said = {
-        "seen as": bug.symptom,
-        "wrong code": bug.wrong,
-        "law broken": bug.law,
-        "steps replaced": ", ".join(bug.changes) or "none",
-        "shows in": bug.command,
-        "cannot be told from": ", ".join(others),
+        "seen": symptom_of(bug, say),
+        "wrong": bug.wrong,
+        "law": bug.law,
+        "steps": say.listed(*bug.changes) or say("value.none"),
+        "shows": bug.command,
+        "alike": say.listed(*others),
         "here": bug.note,
     }
     table = Table(box=None, show_header=False)
@@ -44,8 +54,18 @@ def print_bug(bug, console):
     table.add_column()
     for name, text in said.items():
         if text:
-            table.add_row(name, text)
+            table.add_row(say(f"bugs.{name}"), text)
     console.print(Padding(table, (0, 0, 0, 1)))
+
+
+def title_of(bug, say):
+    """What a bug is called in the speaker's language."""
+    return say.optional(f"bug.{bug.id}", bug.title)
+
+
+def symptom_of(bug, say):
+    """How it looks, in the speaker's language."""
+    return say.optional(f"symptom.{bug.id}", bug.symptom)
 
 
 def as_dict(bug):

@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 import tracer
+from lessons.zoo import FAMILIES, ZOO
+from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
 from viewer.caption import caption, shown, why_dead
+from viewer.cli import main
 from viewer.equation import formulas
 from viewer.words import LANGUAGES, Speaker, areas, table
 
@@ -107,6 +110,65 @@ def test_every_event_and_field_of_the_schema_is_explained_in_every_language(lang
     assert areas()["schema"][language].keys() == declared
     choices = {c for kind in KINDS for field in kind.fields for c in field.choices}
     assert {f"choice.{c}" for c in choices} <= table(language).keys()
+
+
+@pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})
+def test_every_law_and_every_bug_is_told_in_every_language(language):
+    laws = {f"{what}.{rule.id}" for rule in (*LAWS, *statistics.RULES) for what in ("rule", "law")}
+    assert areas()["laws"][language].keys() == laws
+    bugs = {f"{what}.{bug}" for bug in ZOO for what in ("bug", "symptom")}
+    assert areas()["bugs"][language].keys() == bugs | {f"family.{name}" for name in FAMILIES}
+
+
+# Errors that users meet often, as the command line gives them.
+OFTEN = (
+    "render nowhere", "render cornell_unit --spp 0", "render cornell_unit --spp 1.5",
+    "render cornell_unit --integrator photon", "render cornell_unit --roulette 2",
+    "render cornell_unit --roulette off", "render cornell_unit --bug no-such-bug",
+    "render cornell_unit --size 65535 65535", "render cornell_unit --integrator walk --strategy light",
+    "render cornell_unit --sampler independent --replicates 2",
+    "render cornell_unit --sampler lattice --replicates 3 --spp 4", "inspect cornell_unit --pixel 999 0",
+    "inspect cornell_unit --pixel 0 0 --sample 99", "render cornell_unit --bounces 3", "rendr", "render",
+    "inspect cornell_unit", "render cornell_unit --jitter=5", "render a b", "diff no.exr no.exr",
+    "render cornell_unit -o no/such/folder.npy", "view scene=nowhere", "view scene=furnace&bounces=3",
+    "view http://127.0.0.1/",
+)  # fmt: skip
+BROKEN = (
+    "[sensor]\ntype = 'x'",
+    "[sensor]\ntype = 'perspectiv'",
+    "[sensor",
+    "sensor = 3",
+    "[light]",
+)
+
+
+def refused(words, capsys):
+    """The one line that the command says before it gives up."""
+    with pytest.raises(SystemExit) as end:
+        main(words)
+    assert end.value.code == 2
+    return capsys.readouterr().err.strip()
+
+
+@pytest.mark.parametrize("words", OFTEN)
+def test_errors_that_users_see_often_are_told_in_chinese(words, capsys):
+    english = refused(words.split(), capsys)
+    chinese = refused(["--lang", "zh", *words.split()], capsys)
+    assert "\n" not in chinese and chinese != english
+    assert re.search(r"[\u4e00-\u9fff]", chinese)
+
+
+@pytest.mark.parametrize("text", BROKEN)
+def test_errors_in_scene_files_are_told_in_chinese(text, tmp_path, capsys):
+    file = tmp_path / "room.toml"
+    file.write_text(text, encoding="utf-8")
+    said = refused(["--lang", "zh", "render", str(file)], capsys)
+    assert re.search(r"[\u4e00-\u9fff]", said) and str(file) in said
+
+
+def test_an_error_that_is_not_in_the_table_keeps_its_own_words():
+    assert Speaker("zh").error("something quite new") == "something quite new"
+    assert Speaker("en").error("sensor: is missing") == "sensor: is missing"
 
 
 @pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})

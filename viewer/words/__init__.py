@@ -7,7 +7,9 @@ is declared (the schema of events, the doctor's laws, the zoo, errors) has no En
 
 import importlib
 import pkgutil
+import re
 from functools import cache
+from string import Formatter
 
 from viewer.words.language import LANGUAGES, asked, current, use
 
@@ -28,6 +30,18 @@ def table(language):
     return {key: words for tables in areas().values() for key, words in tables.get(language, {}).items()}
 
 
+@cache
+def _errors():
+    """Keys of the errors with patterns of their English."""
+
+    def pattern(words):
+        parts = Formatter().parse(words)
+        return "".join(re.escape(text) + (f"(?P<{name}>.+?)" if name else "") for text, name, _, _ in parts)
+
+    known = table("en")
+    return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in known if key.startswith("error.")]
+
+
 class Speaker:
     """Looks words up: say("key", name=value). Without a language, in that of the terminal."""
 
@@ -45,6 +59,15 @@ class Speaker:
     def meaning(self, kind, field):
         """What a field of an event means; the schema's own words unless the table has others."""
         return self.optional(f"field.{kind.name}.{field}", kind.field(field).meaning)
+
+    def error(self, message):
+        """An error in this language; in its own words where the table has none for it."""
+        if self.language != "en":
+            for key, pattern in _errors():
+                found = pattern.fullmatch(message)
+                if found:
+                    return self(key, **found.groupdict())
+        return message
 
     def sentences(self, *said):
         """Sentences one after another; empty ones are left out."""
