@@ -144,7 +144,7 @@ class Brute:
         sure, may, which = np.full(n, np.inf), np.full(n, np.inf), np.full(n, -1)
         plane = self.planes_of(source)
         for part in self._chunks(n):
-            for number, t, certain, possible, room in self._met(
+            for number, t, certain, possible, room, _ in self._met(
                 o[:, part], d[:, part], source[part], plane[part], slack
             ):
                 at = np.where(certain, t, np.inf)
@@ -156,11 +156,11 @@ class Brute:
                 may[part] = np.minimum(may[part], np.where(possible, t - room, np.inf).min(axis=1))
         return sure, may, which
 
-    def between(self, p, q, source, target, slack):
+    def between(self, p, q, source, target, slack, front_only=False):
         """(blocked, may): whether something surely lies between points p and q (3, N), and whether it may.
 
         source, target: (N,) the primitives these lie on, -1 for none. Faces in the plane of one of them are
-        never in the way.
+        never in the way. front_only: what is met from behind may let the ray pass.
         """
         gap = q - p
         distance = np.sqrt(dot(gap, gap))
@@ -169,9 +169,11 @@ class Brute:
         plane, aim = self.planes_of(source), self.planes_of(target)
         for part in self._chunks(source.size):
             end = distance[part, None]
-            for number, t, certain, possible, room in self._met(
+            for number, t, certain, possible, room, front in self._met(
                 p[:, part], d[:, part], source[part], plane[part], slack
             ):
+                if front_only:
+                    certain = certain & front
                 other = number[None, :] != target[part, None]
                 if not self.is_sphere[number].any():
                     other &= self.plane[None, :] != aim[part, None]
@@ -185,8 +187,8 @@ class Brute:
             yield slice(begin, begin + step)
 
     def _met(self, o, d, source, plane, slack):
-        """Yield (numbers (P,), t, certain, possible, room), each (N, P), of the flat faces and of the
-        spheres; room: by how much t may be off."""
+        """Yield (numbers (P,), t, certain, possible, room, front), each (N, P), of the flat faces and of the
+        spheres; room: by how much t may be off; front: whether the side is met that the normal points to."""
         if self.flat.size:
             yield self._met_flat(o, d, plane, slack)
         if self.sphere.size:
@@ -208,7 +210,7 @@ class Brute:
         other = self.plane[None, :] != plane[:, None]
         certain = other & (a > loose_a) & (b > loose_b) & (edge > loose) & (t > 2.0 * room)
         possible = other & (a > -loose_a) & (b > -loose_b) & (edge > -loose) & (t > -2.0 * room)
-        return self.flat, t, certain, possible, room
+        return self.flat, t, certain, possible, room, cos < 0.0
 
     def _met_spheres(self, o, d, source, slack):
         out = o[:, :, None] - self.center[:, None, :]
@@ -227,4 +229,4 @@ class Brute:
         certain = (miss < self.radius - slack) & (t > 4.0 * room) & (np.abs(near) > 2.0 * room)
         certain = np.where(own, t > 4.0 * room, certain)
         possible = np.where(own, t > -room, (miss < self.radius + slack) & (t > -2.0 * room))
-        return self.sphere, t, certain, possible, room
+        return self.sphere, t, certain, possible, room, self.side[None, :] * (along + t) < 0.0

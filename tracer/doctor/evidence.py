@@ -106,6 +106,15 @@ class Evidence:
         """How far each coordinate of a recorded point may be off, in metres."""
         return OFF * self.eps * self.scale
 
+    @property
+    def off_vertex(self):
+        """The same of a vertex or light point: if it was printed and not worked out from others, what printing
+        does counts once beside what the loop's own rounding does."""
+        own = float(np.finfo(np.float32 if self.settings.precision == 32 else np.float64).eps)
+        if self.eps <= own or {"hit.p", "light.q"} & self.trace.rebuilt:
+            return self.off_point
+        return (OFF * own + self.eps) * self.scale
+
     @cached_property
     def brute(self):
         """Every primitive of the scene, to be asked one by one."""

@@ -40,6 +40,7 @@ class Trace:
     vertices. tables: name of a kind -> Table, for each of events.KINDS. eps: relative precision of the
     numbers: the machine epsilon of the loop's, or half a unit of the last printed digit. rebuilt: fields,
     "kind.field", that were not recorded but worked out from others and the scene: they prove nothing.
+    culled: whether rays may have passed the backs of surfaces, as programs do that cull them; castray does not.
     """
 
     scene: Any  # a Scene, in the precision of the settings
@@ -48,6 +49,7 @@ class Trace:
     tables: dict
     eps: float
     rebuilt: frozenset = frozenset()
+    culled: bool = False
 
     @property
     def size(self):

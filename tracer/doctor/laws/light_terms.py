@@ -99,7 +99,11 @@ def term(evidence):
 
 
 def visible(evidence):
-    """I6: whether the light point is seen, by every primitive asked one by one."""
+    """I6: whether the light point is seen, by every primitive asked one by one.
+
+    What starts within rounding of a closed shape's face, or outside of the room, meets it from behind only:
+    then a program that culls back faces sees the light, which is no mistake.
+    """
     arriving = np.ones(evidence.count("light"))
     for name in ("f", "Le", "beta", "pdf", "w", "cos"):
         if evidence.has(f"light.{name}"):
@@ -115,11 +119,13 @@ def visible(evidence):
         return None
     p, q = evidence.at_vertex("light", "p")[:, rows], evidence("light.q")[:, rows]
     source, target = evidence.at_vertex("light", "primitive")[rows], evidence("light.primitive")[rows]
-    blocked, maybe = evidence.brute.between(p, q, source, target, 4.0 * evidence.off_point)
+    blocked, maybe = evidence.brute.between(
+        p, q, source, target, 4.0 * evidence.off_vertex, front_only=evidence.trace.culled
+    )
     seen = seen[rows]
     bad = (seen & blocked) | (~seen & ~maybe)
     unsure = maybe & ~blocked
-    unsure |= ~(length(q - p) > 64.0 * evidence.off_point)
+    unsure |= ~(length(q - p) > 64.0 * evidence.off_vertex)
     return Outcome("light", rows, bad & ~unsure, unsure, seen, ~blocked, "visible")
 
 

@@ -129,7 +129,7 @@ def _of_calls(read, scene, exact, settings):
         tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size
     )
     rebuilt = frozenset(telling.rebuilt)
-    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt), [
+    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, culled=True), [
         *chain.notes,
         *notes,
     ]
