@@ -16,7 +16,7 @@ them; what breaks one is named, shown and can be replayed. Commands write this p
 """
 SECTIONS = {
     "table": ("Bugs of the zoo", "make doctor-table"),
-    "alarms": ("False alarms", "python tests/false_alarms.py"),
+    "alarms": ("False alarms", "make false-alarms"),
 }
 _SECTION = "<!-- {name} -->\n{text}<!-- /{name} -->\n"
 

@@ -13,7 +13,7 @@ from suite import suite_seed
 
 import tracer
 from lessons import zoo
-from tracer.doctor import LAWS, examine, statistics
+from tracer.doctor import LAWS, diagnosis, examine, statistics
 from tracer.doctor.evidence import Evidence
 from tracer.events import KINDS
 from tracer.trace import gather
@@ -92,6 +92,53 @@ def test_a_bug_of_the_zoo_is_named_first(bug):
 @pytest.mark.slow
 def test_the_abandoned_castray_is_three_mistakes_that_hide_each_other():
     assert {"E01", "D01", "D06"} <= set(examine(zoo_trace("castray")).bugs)
+
+
+@pytest.mark.parametrize("bug", ["D10", "R01"])
+def test_a_trace_judged_in_parts_is_judged_as_a_whole(bug, monkeypatch):
+    trace = zoo_trace(bug)
+    whole = examine(trace)
+    monkeypatch.setattr(diagnosis, "_VERTICES", trace.vertices // 5)
+    parts = examine(trace)
+    assert counts_of(parts) == counts_of(whole)
+    assert [(f.rule, f.bug, f.count, f.checked) for f in parts.causes] == [
+        (f.rule, f.bug, f.count, f.checked) for f in whole.causes
+    ]
+    wrong, again = (
+        {v.rule.id: list(v.outcome.rows[v.outcome.wrong]) for v in d.rules if v.state == "fired"}
+        for d in (whole, parts)
+    )
+    assert wrong == again
+    first = parts.causes[0]
+    (path,) = np.flatnonzero(
+        np.all([trace.paths[name] == first.first[name] for name in ("x", "y", "sample")], axis=0)
+    )
+    table = trace.tables[first.first["kind"]]
+    assert ((table.path == path) & (table.step == first.first["step"])).sum() == 1
+
+
+def counts_of(diagnosis):
+    return [(v.rule.id, v.state, v.checked, v.failed, v.abstained, v.missing) for v in diagnosis.rules]
+
+
+def test_what_is_met_from_behind_only_is_doubtful_where_backs_may_be_culled():
+    brute = Evidence(zoo_trace("D10")).brute  # the homework's box, in millimetres
+    lamp = np.array([[278.0], [548.7], [280.0]])
+    lamp, none = np.array([[278.0], [548.6], [280.0]]), np.array([-1])
+    within, behind = (np.array(p)[:, None] for p in ((185.0, 80.0, 170.0), (368.0, 10.0, 500.0)))  # the boxes
+    for start, sure in ((within, False), (behind, True)):
+        assert [v.all() for v in brute.between(start, lamp, none, none, 1e-3)] == [True, True]
+        found = brute.between(start, lamp, none, none, 1e-3, front_only=True)
+        assert [v.all() for v in found] == [sure, True]
+
+
+@pytest.mark.parametrize("culled", [False, True])
+def test_light_that_passes_a_front_is_a_mistake_whether_backs_are_culled_or_not(culled):
+    right = kept("room")
+    through = np.ones_like(right.tables["light"]["visible"])
+    wrong = replace(with_column(right, "light.visible", through), culled=culled)
+    (verdict,) = [v for v in examine(wrong).rules if v.rule.id == "light-visible"]
+    assert verdict.failed > 10
 
 
 def test_several_bugs_at_once_are_told_apart():

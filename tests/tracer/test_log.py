@@ -9,7 +9,8 @@ from suite import castray
 import tracer
 from tracer.events import BOUNCE, HIT, KINDS, LIGHT, ROULETTE
 from tracer.trace import gather
-from tracer.trace.jsonl import read_log, schema_text
+from tracer.trace.jsonl import plain, read_log, reading, schema_text
+from tracer.trace.jsonl.schema import call_fields
 
 HEADER = {"castray": 1, "tracer": "mine", "hemisphere": "uniform", "roulette": 0.8}
 # The floor and the ceiling of the homework's box: two calls, the inner one ends by roulette.
@@ -288,3 +289,64 @@ def test_the_command_checks_a_log(written):
     assert document["mistakes"] == [{"line": 4, "field": "hit.p", "what": "1 is not a list of 3 numbers"}]
     done = castray("log", path.parent / "none.jsonl")
     assert done.returncode == 2 and done.stderr.count("\n") == 1
+
+
+ODD = (
+    {"hit.p": [1, 2]}, {"hit.p": [1, 2, "3"]}, {"direct": None}, {"x": 1.5}, {"x": "4"}, {"x": 70000},
+    {"roulette.survived": 1}, {"roulette.survived": 2}, {"hit.primitive": 999}, {"colour": [1, 2, 3]},
+    {"direct": [1e999, -1e-320, 0.1]}, {"direct": [-0.0, 2**70, 1]}, {"bounce.pdf": True},
+)  # fmt: skip
+SPELLED = (
+    ("[278,", "[NaN,"), ("278", "0278"), ("278", "278."), ("278", "+278"), ("0.8", ".8"), ("110", "11 0"),
+    ("110", "1-10"), ("ray.o", "ra.yo"), ("ray.o", "ray.oe"), ('"x": 3', '"x": 3, "x": 4'), ("}", "}}"),
+    ("278", "2.78e2"), ("278", "278E0"), ('"x": 3', '"x": '), ("[278,", "[278,,"), ("[0, 1, 0]", "[]"),
+)  # fmt: skip
+
+
+def test_lines_read_together_say_what_each_says_alone(written, cornell, monkeypatch):
+    monkeypatch.setattr(reading.lines, "SHOWN", 1 << 30)
+    rng = np.random.default_rng(3)
+    lines = []
+    for k in range(20):
+        for call in (OUTER, INNER):
+            shaken = {name: rng.normal(size=3).tolist() for name in ("direct", "returned")}
+            lines.append(json.dumps(call | {"path": k, "x": k} | shaken))
+        lines.append(json.dumps(OUTER | {"path": k} | ODD[k % len(ODD)]))
+        lines.append(json.dumps(OUTER | {"path": k}).replace(*SPELLED[k % len(SPELLED)], 1))
+        lines.append(json.dumps({"kind": "hit", "x": k % 7, "y": 2, "p": [0.1 * k, 1, 2], "t": k}))
+    with_kind = [line for line in lines if '"kind": "hit", "x"' in line]
+    calls = [line for line in lines if '"kind"' not in line or "ray.o" in line]
+    for part in (calls, with_kind + ['{"kind": "hite", "x": 1}', '{"kind": "hit", "x": null}']):
+        path = written(*part)
+        monkeypatch.setattr(plain, "LEAST", 1 << 30)
+        alone = lines_of(path, cornell)
+        for block, least in ((1 << 11, 1), (1 << 15, 3)):
+            monkeypatch.setattr(plain, "BLOCK", block)
+            monkeypatch.setattr(plain, "LEAST", least)
+            together = lines_of(path, cornell)
+            assert (together.lines, together.mistaken, together.unknown) == (
+                alone.lines, alone.mistaken, alone.unknown,
+            )  # fmt: skip
+            assert set(map(str, together.mistakes)) == set(map(str, alone.mistakes))
+            for kind, columns in alone.columns.items():
+                np.testing.assert_array_equal(together.columns[kind].line, columns.line)
+                assert together.columns[kind].values.keys() == columns.values.keys()
+                for name, column in columns.values.items():
+                    other = together.columns[kind].values[name]
+                    assert other.dtype == column.dtype
+                    np.testing.assert_array_equal(other, column, name)
+                    np.testing.assert_array_equal(together.columns[kind].given[name], columns.given[name])
+
+
+def test_plain_lines_need_no_care(written, monkeypatch):
+    path = written(*many([OUTER, INNER]))
+    monkeypatch.setattr(plain, "BLOCK", 1 << 10)
+    reader = plain.Plain({None: call_fields()})
+    lines = path.read_bytes().splitlines()[1:]
+    monkeypatch.setattr(plain, "LEAST", 32)
+    found, left = reader.read(lines)
+    assert left == [] and sum(rows.size for _, rows, _ in found) == len(lines)
+
+
+def lines_of(path, scene):
+    return reading.lines.read(path, reading._tables(scene))

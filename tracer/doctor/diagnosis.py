@@ -8,7 +8,7 @@ from tracer.doctor import statistics
 from tracer.doctor.evidence import Evidence
 from tracer.doctor.laws import LAWS
 from tracer.doctor.naming import named
-from tracer.doctor.rule import FIRED, applied
+from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, Outcome, Verdict, applied
 
 # What breaks together: where the first of a group is broken, the others are too, by the same mistake.
 _TOGETHER = (
@@ -27,6 +27,7 @@ _OF_MANY = tuple(rule.id for rule in statistics.RULES)
 _NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
 _BOUNCES = ("unit-normal", "normal", "shading-normal", "unit-direction", "wo", "absorbed", "bounce-")
 _ALWAYS_LATER = ("domain", "finite")  # what any mistake may lead to
+_VERTICES = 1 << 18  # that are judged at once, about 300 MB
 
 
 @dataclass(frozen=True)
@@ -100,11 +101,73 @@ class Diagnosis:
 
 
 def examine(trace):
-    """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked."""
+    """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked.
+
+    Memory beside the trace is bounded but for what distributions need: events are judged a range of paths
+    at a time.
+    """
+    single = [_Judged(rule) for rule in LAWS]
+    for begin, end in _ranges(trace):
+        part = trace if end - begin == trace.size else trace.span(begin, end)
+        evidence = Evidence(part)
+        first = {kind: np.searchsorted(table.path, begin) for kind, table in trace.tables.items()}
+        for judged in single:
+            judged.add(applied(judged.rule, evidence), evidence, first.get(judged.rule.kind, begin))
     evidence = Evidence(trace)
-    verdicts = tuple(applied(rule, evidence) for rule in LAWS) + statistics.judged(evidence)
-    findings = [_finding(evidence, verdict) for verdict in verdicts if verdict.state == FIRED]
-    return Diagnosis(_ranked(findings), verdicts)
+    many = statistics.judged(evidence)
+    findings = [judged.finding for judged in single if judged.finding is not None]
+    findings += [_finding(evidence, verdict) for verdict in many if verdict.state == FIRED]
+    return Diagnosis(_ranked(findings), (*(judged.verdict for judged in single), *many))
+
+
+def _ranges(trace):
+    """Yield (first path, end) of parts of about _VERTICES vertices, none smaller than half of it."""
+    ends = np.cumsum(np.bincount(trace.tables["hit"].path, minlength=trace.size))
+    parts = max(1, round(float(ends[-1]) / _VERTICES))
+    cuts = np.searchsorted(ends, np.arange(1, parts) * ends[-1] / parts)
+    bounds = np.unique((0, *cuts, trace.size))
+    yield from zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True)
+
+
+class _Judged:
+    """What a rule says of all parts of a trace together.
+
+    The name is that of the part in which it fires most often.
+    """
+
+    def __init__(self, rule):
+        self.rule, self.finding, self._most = rule, None, 0
+        self.verdict = Verdict(rule, NOT_TESTABLE)
+
+    def add(self, verdict, evidence, first):
+        """One part's verdict; first: number of the part's first event in the trace."""
+        if verdict.failed > self._most:
+            self._most = verdict.failed
+            self.finding = _finding(evidence, verdict)
+        self.verdict = _both(self.verdict, verdict, first)
+        if self.finding is not None:
+            self.finding = replace(self.finding, count=self.verdict.failed, checked=self.verdict.checked)
+
+
+def _both(so_far, verdict, first):
+    """The Verdict on two parts; its events are those that are wrong, by their numbers in the trace."""
+    if verdict.state == NOT_TESTABLE:
+        return so_far if so_far.state != NOT_TESTABLE or so_far.missing else verdict
+    return Verdict(
+        verdict.rule,
+        FIRED if FIRED in (so_far.state, verdict.state) else CLEAN,
+        so_far.checked + verdict.checked,
+        so_far.failed + verdict.failed,
+        so_far.abstained + verdict.abstained,
+        outcome=_wrong_of_both(so_far.outcome, verdict.outcome, first),
+    )
+
+
+def _wrong_of_both(so_far, outcome, first):
+    rows = outcome.rows[outcome.wrong] + first
+    if so_far is not None:
+        rows = np.concatenate((so_far.rows, rows))
+    return Outcome(outcome.kind, rows, np.ones(rows.size, bool), np.zeros(rows.size, bool), what=outcome.what)
 
 
 def _ranked(findings):

@@ -108,8 +108,8 @@ class Evidence:
 
     @property
     def off_vertex(self):
-        """The same of a vertex or light point: if it was printed and not worked out from others, what printing
-        does counts once beside what the loop's own rounding does."""
+        """The same of vertices and light points: where they were printed and not worked out from others,
+        printing counts once, beside the loop's own rounding."""
         own = float(np.finfo(np.float32 if self.settings.precision == 32 else np.float64).eps)
         if self.eps <= own or {"hit.p", "light.q"} & self.trace.rebuilt:
             return self.off_point

@@ -27,7 +27,7 @@ class Table:
         return self.columns.get(name)
 
     def take(self, rows):
-        """Some rows of it: (K,) numbers or (E,) bool."""
+        """Some rows of it: (K,) numbers, (E,) bool or a slice."""
         columns = {name: column[..., rows] for name, column in self.columns.items()}
         return Table(self.path[rows], self.step[rows], self.depth[rows], columns)
 
@@ -40,7 +40,7 @@ class Trace:
     vertices. tables: name of a kind -> Table, for each of events.KINDS. eps: relative precision of the
     numbers: the machine epsilon of the loop's, or half a unit of the last printed digit. rebuilt: fields,
     "kind.field", that were not recorded but worked out from others and the scene: they prove nothing.
-    culled: whether rays may have passed the backs of surfaces, as programs do that cull them; castray does not.
+    culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
     """
 
     scene: Any  # a Scene, in the precision of the settings
@@ -105,6 +105,14 @@ class Trace:
             here = table.take(np.flatnonzero(keep[table.path]))
             tables[name] = replace(here, path=number[here.path])
         return replace(self, paths={name: c[..., keep] for name, c in self.paths.items()}, tables=tables)
+
+    def span(self, begin, end):
+        """The trace of paths begin to end - 1 only; its columns are views of this one's."""
+        tables = {}
+        for name, table in self.tables.items():
+            here = table.take(slice(*np.searchsorted(table.path, (begin, end))))
+            tables[name] = replace(here, path=here.path - begin)
+        return replace(self, paths={name: c[..., begin:end] for name, c in self.paths.items()}, tables=tables)
 
 
 def join(traces):

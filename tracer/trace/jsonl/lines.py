@@ -7,7 +7,7 @@ import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
-from tracer.trace.jsonl import header
+from tracer.trace.jsonl import header, plain
 from tracer.trace.jsonl.schema import call_fields, event_fields
 from tracer.trace.jsonl.spelling import decoded, number, plain_numbers, short
 
@@ -86,33 +86,17 @@ def read(path, tables=None):
 
 
 def _read(path, file, tables):
-    found, gathering, line = None, None, 0
-    while raw := file.readline(LONGEST + 1):
-        line += 1
-        if len(raw) > LONGEST:
-            raise TracerError(
-                f"{path}: line {line} is longer than {LONGEST >> 20} MB; a log has one event or call a line"
-            )
-        if not raw.strip():
-            continue
-        if found is None:
-            place = f"{path}: line {line}"
-            record, why = decoded(raw.removeprefix(b"\xef\xbb\xbf"))
-            if why:
-                raise TracerError(f"{place}: {why}; a log is JSON Lines (castray log --schema)")
-            found = Read(header.parsed(record, place))
-            gathering = Gathering(found, tables)
-            continue
-        record, why = decoded(raw)
-        found.lines += 1
-        if why and not raw.endswith(b"\n"):
-            found.cut = True
-        elif why or not isinstance(record, dict):
-            found.tell(line, "", why or "not an object")
-        else:
-            gathering.add(record, line)
-    if found is None:
-        raise TracerError(f"{path}: empty; the first line of a log is its header (castray log --schema)")
+    found, line = _headed(path, file)
+    gathering, rest = Gathering(found, tables), b""
+    while block := file.read(plain.BLOCK):
+        whole, end, rest = (rest + block).rpartition(b"\n")
+        lines = whole.split(b"\n") if end else []
+        for at, raw in enumerate((*lines, rest), line + 1):
+            if len(raw) >= LONGEST:
+                raise _too_long(path, at)
+        gathering.lines(lines, line + 1)
+        line += len(lines)
+    gathering.line(rest, line + 1, ended=False)
     found.columns = gathering.finish()
     if not found.columns:
         first = f"; {found.mistakes[0]}" if found.mistakes else ""
@@ -120,6 +104,28 @@ def _read(path, file, tables):
     if None in found.columns and len(found.columns) > 1:
         raise TracerError(f"{path}: holds calls and events (lines with kind); a log has one of the two")
     return found
+
+
+def _headed(path, file):
+    """The Read of a file's header, and the number of its line."""
+    line = 0
+    while raw := file.readline(LONGEST + 1):
+        line += 1
+        if len(raw) > LONGEST:
+            raise _too_long(path, line)
+        if raw.strip():
+            place = f"{path}: line {line}"
+            record, why = decoded(raw.removeprefix(b"\xef\xbb\xbf"))
+            if why:
+                raise TracerError(f"{place}: {why}; a log is JSON Lines (castray log --schema)")
+            return Read(header.parsed(record, place)), line
+    raise TracerError(f"{path}: empty; the first line of a log is its header (castray log --schema)")
+
+
+def _too_long(path, line):
+    return TracerError(
+        f"{path}: line {line} is longer than {LONGEST >> 20} MB; a log has one event or call a line"
+    )
 
 
 class Gathering:
@@ -131,6 +137,29 @@ class Gathering:
         self.groups, self.waiting = {}, 0
         self.blocks = {}  # kind -> [(lines, values)]
         self.fields = {None: call_fields()} | {name: event_fields(kind) for name, kind in _KIND.items()}
+        self.plain = plain.Plain(self.fields)
+
+    def lines(self, lines, first):
+        """Whole lines of bytes, the first of this number."""
+        found, left = self.plain.read(lines)
+        for kind, rows, columns in found:
+            self.found.lines += rows.size
+            self._checked_block(kind, rows + first, columns)
+        for row in left:
+            self.line(lines[row], first + row)
+
+    def line(self, raw, place, ended=True):
+        """One line of bytes; ended: whether it has its end."""
+        if not raw.strip():
+            return
+        record, why = decoded(raw)
+        self.found.lines += 1
+        if why and not ended:
+            self.found.cut = True
+        elif why or not isinstance(record, dict):
+            self.found.tell(place, "", why or "not an object")
+        else:
+            self.add(record, place)
 
     def add(self, record, place):
         """One line."""
@@ -169,40 +198,44 @@ class Gathering:
     def _block(self, kind, names, group):
         known = self.fields[kind]
         lines = np.array([number for number, _ in group])
-        values, good = {}, np.ones(lines.size, bool)
+        columns, fine = {}, np.ones(lines.size, bool)
         for name, column in zip(names, zip(*(row for _, row in group), strict=True), strict=True):
-            if name not in known:
+            if name in known:
+                columns[name] = self._column(known[name], name, column, lines, fine)
+            else:
                 self.found.unknown.setdefault(name, int(lines[0]))
-                continue
-            array, fine = self._column(known[name], name, column, lines)
-            values[name] = array
-            good &= fine
-        if not good.all():
-            lines, values = lines[good], {name: array[..., good] for name, array in values.items()}
-        if lines.size and values:
-            self.blocks.setdefault(kind, []).append((lines, values))
+        self._checked_block(kind, lines, columns, fine)
 
-    def _column(self, f, name, column, lines):
-        """((..., N) array, (N,) which lines are right) of one field."""
-        whole = f.domain in _WHOLE
-        dtype = np.int64 if whole else np.uint8 if f.domain == "flag" else self.dtype
+    def _column(self, f, name, column, lines, fine):
+        """The (..., N) array of one field; takes wrong lines out of `fine` (N,)."""
         array = plain_numbers(f, column)
-        fine = np.ones(len(column), bool)
         if array is None:
-            array = np.full((*f.shape, len(column)), np.nan)
+            array = np.zeros((*f.shape, len(column)))
             for k, value in enumerate(column):
                 try:
                     array[..., k] = self._value(f, value)
                 except ValueError as error:
                     fine[k] = False
                     self.found.tell(int(lines[k]), name, str(error))
-        fine &= self._in_range(f, name, array, lines, fine)
-        with np.errstate(over="ignore", invalid="ignore"):
-            return np.where(fine, array, 0).astype(dtype) if whole or dtype is np.uint8 else array.astype(
-                dtype
-            ), fine
+        return array
 
-    def _in_range(self, f, name, array, lines, fine):
+    def _checked_block(self, kind, lines, columns, fine=True):
+        """Keep columns name -> (..., N) of lines (N,), but for those that are not `fine` or out of range."""
+        known, values, good = self.fields[kind], {}, np.ones(lines.size, bool) & fine
+        for name, array in columns.items():
+            f = known[name]
+            good &= self._in_range(f, name, array, lines)
+            dtype = np.int64 if f.domain in _WHOLE else np.uint8 if f.domain == "flag" else self.dtype
+            if dtype is not self.dtype:
+                array = np.where(good, array, 0)
+            with np.errstate(over="ignore", invalid="ignore"):
+                values[name] = array.astype(dtype)
+        if not good.all():
+            lines, values = lines[good], {name: array[..., good] for name, array in values.items()}
+        if lines.size and values:
+            self.blocks.setdefault(kind, []).append((lines, values))
+
+    def _in_range(self, f, name, array, lines):
         most = {"pixel": 65534, "whole": _MOST_WHOLE, "index": _MOST_WHOLE}.get(f.domain)
         if f.domain in _TABLES and f.domain in self.tables:
             most = len(self.tables[f.domain]) - 1
@@ -216,12 +249,12 @@ class Gathering:
         if f.domain == "flag":
             bad = (array != 0) & (array != 1)
         elif f.domain not in _WHOLE:
-            return np.ones(len(fine), bool)
+            return np.ones(lines.size, bool)
         else:
             least = -1 if f.domain in ("index", *_TABLES) else 0
             bad = ~((array >= least) & (array <= (most if most is not None else _MOST_WHOLE)))
             bad |= array != np.floor(array)
-        for k in np.flatnonzero(bad & fine):
+        for k in np.flatnonzero(bad):
             what = (
                 "is neither true nor false"
                 if f.domain == "flag"

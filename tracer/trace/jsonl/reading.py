@@ -129,10 +129,8 @@ def _of_calls(read, scene, exact, settings):
         tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size
     )
     rebuilt = frozenset(telling.rebuilt)
-    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, culled=True), [
-        *chain.notes,
-        *notes,
-    ]
+    trace = Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, culled=True)
+    return trace, [*chain.notes, *notes]
 
 
 def _value(columns, name, rows):
@@ -204,9 +202,8 @@ def _of_events(read, scene, exact, settings):
     tables = {
         name: replace(table, columns=compact(table.columns, scene.dtype)) for name, table in tables.items()
     }
-    return Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps), _of_tables(
-        exact, tables
-    )
+    trace = Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, culled=True)
+    return trace, _of_tables(exact, tables)
 
 
 def _all(found, name):
