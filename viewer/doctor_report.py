@@ -77,6 +77,8 @@ def _said(finding, say):
         yield "first", Text(_place(finding.first, say))
         if finding.command:
             yield "see", Text(finding.command)
+    if finding.lesson is not None:
+        yield "lesson", Text(f"castray lesson {finding.lesson}")
 
 
 def _place(first, say):

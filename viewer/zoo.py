@@ -5,6 +5,7 @@ from rich.padding import Padding
 from rich.table import Table
 
 import tracer
+from lessons.course import about
 from lessons.zoo import FAMILIES, RIGHT, alike
 from tracer.settings import TracerError
 from viewer.progress import watched
@@ -48,6 +49,7 @@ def print_bug(bug, console):
         "shows": bug.command,
         "alike": say.listed(*others),
         "here": bug.note,
+        "explained by": f"castray lesson {about(bug.id)}" if about(bug.id) else "",
     }
     table = Table(box=None, show_header=False)
     table.add_column(no_wrap=True, style="dim")
@@ -82,6 +84,7 @@ def as_dict(bug):
         "settings": bug.settings,
         "only_cost": bug.only_cost,
         "alike": sorted(alike(bug.id)),
+        "lesson": about(bug.id),
     }
 
 

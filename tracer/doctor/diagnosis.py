@@ -56,7 +56,7 @@ class Finding:
     command: str | None
     follows: str | None = None
     p: float | None = None
-    lesson: str | None = None
+    lesson: int | None = None
 
     def as_dict(self):
         """Plain values."""
@@ -81,6 +81,11 @@ class Diagnosis:
         """The same, with words at the end of each command that replays a path."""
         more = (replace(f, command=f.command and f"{f.command} {words}") for f in self.findings)
         return replace(self, findings=tuple(more))
+
+    def explained_by(self, about):
+        """The same, each finding with the lesson that explains its bug: about(bug id), a number or None."""
+        told = (replace(f, lesson=about(f.bug) if f.bug else None) for f in self.findings)
+        return replace(self, findings=tuple(told))
 
     @property
     def bugs(self):

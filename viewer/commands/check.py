@@ -43,10 +43,11 @@ def check(
         return 0
     if not 0.0 < seconds < float("inf"):
         raise TracerError(f"seconds: {seconds} is not a time")
+    from lessons.course import about
     from tracer.learner.run import run
 
     traces = run(file, scene, _settings(options), seconds)
-    diagnosis = _together(*(tracer.examine(trace) for trace in traces))
+    diagnosis = _together(*(tracer.examine(trace) for trace in traces)).explained_by(about)
     if json:
         print_json(diagnosis.as_dict())
     else:

@@ -22,8 +22,10 @@ def doctor(
     scene
         The scene that a log is of.
     """
+    from lessons.course import about
+
     trace = _trace(what, scene, options)
-    diagnosis = tracer.examine(trace)
+    diagnosis = tracer.examine(trace).explained_by(about)
     if trace.settings.bug:  # which the doctor does not know
         diagnosis = diagnosis.replayed_with(f"--bug {trace.settings.bug}")
     if json:
