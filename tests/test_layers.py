@@ -42,6 +42,7 @@ FLOORS = {
     "tracer.trace": 6,
     "tracer.doctor": 7,
     "tracer.learner": 7,
+    "tracer.twin": 7,
     "tracer.testing": 8,
     "tracer": 8.5,
     "scenes": 0,

@@ -11,8 +11,8 @@ from viewer.words import LANGUAGES, Speaker, asked, use
 
 # Its module in viewer/commands/ has a function of that name; what it does is told by the table of words.
 COMMANDS = (
-    "view", "render", "inspect", "doctor", "query", "diff", "check", "bsdf", "bench", "export", "log", "bugs",
-    "lesson",
+    "view", "render", "inspect", "doctor", "twin", "query", "diff", "check", "bsdf", "bench", "export", "log",
+    "bugs", "lesson",
 )  # fmt: skip
 
 

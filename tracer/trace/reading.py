@@ -32,14 +32,17 @@ def read_trace(path, scene=None):
     return join(read_parts(path, scene))
 
 
-def read_parts(path, scene=None):
-    """Traces of the parts of a recording, one after the other; rows of paths count anew in each."""
+def read_parts(path, scene=None, numbers=None):
+    """Traces of the parts of a recording, one after the other; rows of paths count anew in each.
+
+    numbers: of the parts wanted, ascending; all unless said.
+    """
     place = folder.whole(path)
     settings = place.settings
     scene = scene or stored_scene.restore(place.path, place.header["scene"]["name"])
     scene = scene.at(settings)
     _check_names(place, scene)
-    for number in range(place.parts):
+    for number in range(place.parts) if numbers is None else numbers:
         yield _part(place, number, scene, settings)
 
 

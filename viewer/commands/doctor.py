@@ -1,6 +1,6 @@
 """The command `castray doctor`."""
 
-import sys
+from dataclasses import replace
 
 import tracer
 from tracer.settings import TracerError
@@ -18,15 +18,20 @@ def doctor(
     ----------
     what
         A scene file, or the bare name of one that comes with castray: it is traced with the path options.
-        Or the log of another tracer, FILE.jsonl (castray log --schema).
+        Or a folder that castray render --record made with --record-level events, or the log of another
+        tracer, FILE.jsonl (castray log --schema).
     scene
         The scene that a log is of.
     """
     from lessons.course import about
+    from viewer.recorded import is_recording
 
-    trace = _trace(what, scene, options)
+    recorded = is_recording(what)
+    trace = _recorded(what, scene, options) if recorded else _trace(what, scene, options)
     diagnosis = tracer.examine(trace).explained_by(about)
-    if trace.settings.bug:  # which the doctor does not know
+    if recorded:
+        diagnosis = _shown_by_viewer(diagnosis, what)
+    elif trace.settings.bug:  # which the doctor does not know
         diagnosis = diagnosis.replayed_with(f"--bug {trace.settings.bug}")
     if json:
         print_json(diagnosis.as_dict())
@@ -37,28 +42,38 @@ def doctor(
     return 1 if diagnosis.findings else 0
 
 
+def _recorded(what, scene, options):
+    """The Trace of a recording."""
+    from viewer.given import MOST_PATHS, recorded_trace
+
+    if options is not None or scene is not None:
+        raise TracerError(
+            f"{what}: a recording has its own scene and settings; leave out --scene and path options"
+        )
+    return recorded_trace(what, MOST_PATHS)
+
+
+def _shown_by_viewer(diagnosis, folder):
+    """The same, each finding with the command that opens the viewer at its event."""
+    from viewer.replay import recording_command
+
+    findings = []
+    for f in diagnosis.findings:
+        place = f.first and recording_command(folder, [f.first[k] for k in ("x", "y", "sample", "step")])
+        findings.append(replace(f, command=place))
+    return replace(diagnosis, findings=tuple(findings))
+
+
 def _trace(what, scene, options):
     """The Trace that the argument stands for."""
     from tracer.trace import gather
 
     if what.lower().endswith(".jsonl"):
-        return _logged(what, scene)
+        from viewer.given import logged_trace
+
+        return logged_trace(what, scene)
     if scene is not None:
         raise TracerError(f"--scene: is for a log, FILE.jsonl; {what} is none")
     settings, steps = settings_and_steps(options)
     loaded = tracer.load(what)
     return gather(loaded, shrunk(settings, loaded), steps)
-
-
-def _logged(file, scene):
-    """The Trace of a log; what was found out in reading it goes to standard error."""
-    from tracer.trace.jsonl import read_log
-
-    if scene is None:
-        raise TracerError(f"{file}: give --scene, the scene that this log is of")
-    found = read_log(file, tracer.load(scene))
-    more = found.read.mistaken - len(found.mistakes)
-    said = [*map(str, found.mistakes), *([f"... and {more} more mistakes"] if more else []), *found.notes]
-    for line in said:
-        print(f"{file}: {line}", file=sys.stderr)
-    return found.trace

@@ -1,0 +1,40 @@
+"""Traces that a command is given: a recording's folder, or the log of another tracer."""
+
+import sys
+
+import numpy as np
+
+import tracer
+from tracer.settings import TracerError
+from tracer.trace import folder, join, read_parts
+
+MOST_PATHS = 1 << 19  # of a recording looked at together: about half a gigabyte
+
+
+def recorded_trace(path, most=None):
+    """The Trace of a recording's folder; of a large one parts from all over the picture, about `most` paths,
+    which is told on standard error. Raises TracerError."""
+    place = folder.whole(path)
+    if not place.kinds:
+        raise TracerError(f"{path}: has one row a path and no events; record with --record-level events")
+    paths = place.settings.width * place.settings.height * place.settings.spp
+    numbers = None
+    if most is not None and paths > most:
+        few = max(1, int(place.parts * most / paths))
+        numbers = np.unique(np.linspace(0, place.parts - 1, few).astype(int)).tolist()
+        print(f"{path}: {paths} paths; {len(numbers)} of {place.parts} parts are looked at", file=sys.stderr)
+    return join(read_parts(path, numbers=numbers))
+
+
+def logged_trace(file, scene):
+    """The Trace of a log; what was found out in reading it goes to standard error. Raises TracerError."""
+    from tracer.trace.jsonl import read_log
+
+    if scene is None:
+        raise TracerError(f"{file}: give --scene, the scene that this log is of")
+    found = read_log(file, tracer.load(scene))
+    more = found.read.mistaken - len(found.mistakes)
+    said = [*map(str, found.mistakes), *([f"... and {more} more mistakes"] if more else []), *found.notes]
+    for line in said:
+        print(f"{file}: {line}", file=sys.stderr)
+    return found.trace

@@ -1,0 +1,34 @@
+"""The commands that show a path again, as a person types them."""
+
+import shlex
+from dataclasses import fields
+
+import tracer
+from tracer.settings import Settings
+from viewer.link import Link
+
+
+def inspect_command(scene, settings, place):
+    """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for."""
+    x, y, sample, _ = place
+    words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y} --sample {sample}"]
+    words.append(f"--size {settings.width} {settings.height}")
+    for f in fields(Settings):
+        value = getattr(settings, f.name)
+        if f.name not in ("width", "height") and value != f.default:
+            option = f.name.replace("_", "-")
+            words.append(f"--no-{option}" if value is False else f"--{option} {value}")
+    return " ".join(words)
+
+
+def view_command(scene, settings, place):
+    """`castray view` at (x, y, sample, step); None for a scene that a link cannot name."""
+    if scene not in tracer.built_in_scenes():
+        return None
+    return f"castray view {shlex.quote('#' + Link(scene, settings, place).write())}"
+
+
+def recording_command(folder, place):
+    """`castray view` of a recording at (x, y, sample, step); without a step at the start of the path."""
+    x, y, sample, step = place
+    return f"castray view {shlex.quote(f'{folder}#x={x}&y={y}&path={sample}&event={step or 0}')}"
