@@ -27,3 +27,5 @@ class Definition(NamedTuple):
     emitters: tuple = ()  # lights that are no shapes
     media: object = None  # medium.Media of the surfaces, None where nothing is filled
     textures: dict = {}  # name of a material -> {parameter: texture}
+    unchanged: tuple | None = None  # the source before its words were changed, None where none was
+    changes: dict = {}  # the words said differently since, {"OBJECT.WORD": value}

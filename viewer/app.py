@@ -7,6 +7,7 @@ import webbrowser
 from pathlib import Path
 
 import tracer
+from tracer.scene_file.change import changed
 from tracer.settings import TracerError
 from viewer import link as links
 from viewer.security import STATIC, Door, page, restrict
@@ -30,7 +31,8 @@ def serve(scene, settings, port=None, open_browser=True, start=None):
 def serve_link(text, port=None, open_browser=True):
     """Open the viewer where a link points."""
     asked = links.parse(text)
-    serve(Scenes().find(asked.scene), asked.settings, port, open_browser, asked.place)
+    scene = changed(Scenes().find(asked.scene), asked.changes)
+    serve(scene, asked.settings, port, open_browser, asked.place)
 
 
 class Scenes:

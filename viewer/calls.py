@@ -5,6 +5,7 @@ from functools import wraps
 from tracer.settings import TracerError
 from viewer import link as links
 from viewer.cursor import MOVES
+from viewer.panels import all_panels
 from viewer.words import LANGUAGES
 
 MOST_DIGITS = 9
@@ -17,7 +18,10 @@ class Calls:
     def __init__(self, window):
         self.window, self.session, self.state = window, window.session, window.state
         names = ("go", "pick", "path", "event", "play", "open", "take", "speak", "dismiss", "truth")
-        self.by_name = {name: self._told(getattr(self, name)) for name in names}
+        calls = {name: getattr(self, name) for name in names}
+        for panel in all_panels():
+            calls |= panel.calls(window) if panel.calls else {}
+        self.by_name = {name: self._told(call) for name, call in calls.items()}
 
     def _told(self, call):
         @wraps(call)
@@ -71,6 +75,7 @@ class Calls:
         if self.session.open(asked):
             if self.session.scene is not before:
                 self.window.furnish()
+                self.state.rgb = b""
             self.window.paint()
         self.window.refresh("picture")
 

@@ -1,28 +1,35 @@
 """The link that names a moment: scene, settings, pixel, path, event. It holds no key and can be passed on."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
+from tracer.scene_file.change import parse as read_changes
+from tracer.scene_file.change import plain, written
 from tracer.settings import Settings, TracerError
 
 PLACE = ("x", "y", "path", "event")
 LONGEST = 4096
+BETWEEN = ";"  # two changes
 DEFAULTS = {f.name: f.default for f in fields(Settings)}
 TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
 
 
 @dataclass(frozen=True)
 class Link:
-    """What a link says. place: x, y, path, event, or None where it names no pixel."""
+    """What a link says. place: x, y, path, event, or None where it names no pixel. changes: of the scene's
+    words, {key: value}."""
 
     scene: str
     settings: Settings
     place: tuple | None = None
+    changes: dict = field(default_factory=dict)
 
     def write(self):
         """The part after the # of an address; options that have their default are left out."""
         said = {k: v for k, v in self.settings.as_dict().items() if v != DEFAULTS[k]}
         place = dict(zip(PLACE, self.place, strict=True)) if self.place else {}
+        if self.changes:
+            said["set"] = BETWEEN.join(written(self.changes))
         return urlencode({"scene": self.scene, **said, **place}, quote_via=quote)
 
 
@@ -43,15 +50,16 @@ def parse(text):
     words = dict(pairs)
     if len(words) != len(pairs):
         raise TracerError("link: says the same thing twice")
-    unknown = sorted(words.keys() - {"scene", *PLACE, *DEFAULTS})
+    unknown = sorted(words.keys() - {"scene", "set", *PLACE, *DEFAULTS})
     if unknown:
         raise TracerError(
-            f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS))}"
+            f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS, 'set'))}"
         )
     if not words.get("scene"):
         raise TracerError("link: names no scene")
     settings = Settings(**{k: _setting(k, words[k]) for k in DEFAULTS.keys() & words.keys()})
-    return Link(words["scene"], settings, _place(words))
+    changes = plain(read_changes(words["set"].split(BETWEEN))) if "set" in words else {}
+    return Link(words["scene"], settings, _place(words), changes)
 
 
 def _setting(name, text):

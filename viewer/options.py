@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+import tracer
 from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
 
@@ -32,6 +33,9 @@ def _integer(text, place=""):
         raise TracerError(f"{place}{text!r} is not a whole number") from None
 
 
+_SET = "say a word of the scene differently: OBJECT.WORD=VALUE, as in white.reflectance=0.5; may be repeated"
+
+
 def path_options(name, without=(), size="default: the scene's"):
     """The options that decide a path's numbers as a class of that name, made from the one place where they
     are declared; those in `without` are left out."""
@@ -47,6 +51,8 @@ def path_options(name, without=(), size="default: the scene's"):
         text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
         converter = _whole if f.type is int else None
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
+    if "set" not in without:
+        columns.append(("set", Annotated[tuple[str, ...], Parameter(help=_SET, negative=())], ()))
     return Parameter(name="*", group="Path options")(
         make_dataclass(name, columns, frozen=True, namespace={"__module__": __name__})
     )
@@ -57,8 +63,8 @@ PathOptions = path_options("PathOptions")
 DoctorOptions = path_options("DoctorOptions", size=_SHRUNK)
 CheckOptions = path_options(  # without what the learner's own code decides
     "CheckOptions",
-    ("integrator", "strategy", "heuristic", "light_sampling", "sampler", "replicates", "precision", "jitter",
-     "roulette", "max_depth", "bug"),
+    ("set", "integrator", "strategy", "heuristic", "light_sampling", "sampler", "replicates", "precision",
+     "jitter", "roulette", "max_depth", "bug"),
     "default: 24 24",
 )  # fmt: skip
 BenchOptions = path_options(  # without what `castray bench` measures
@@ -84,10 +90,20 @@ def shrunk(settings, scene):
     return replace(settings, width=width, height=height)
 
 
+def scene_of(text, options):
+    """The scene of that name or file, with the changes that the path options ask for."""
+    loaded = tracer.load(text)
+    if options is None or not options.set:
+        return loaded
+    from tracer.scene_file.change import changed, parse
+
+    return changed(loaded, parse(options.set))
+
+
 def settings_and_steps(options):
     """Settings and named steps that the path options ask for; what is not among them has its default."""
     options = options or PathOptions()
     width, height = options.size or (None, None)
-    said = {f.name: getattr(options, f.name) for f in fields(options) if f.name != "size"}
+    said = {f.name: getattr(options, f.name) for f in fields(options) if f.name not in ("size", "set")}
     settings = Settings(width=width, height=height, **said)
     return settings, planted(settings)

@@ -4,12 +4,16 @@ import shlex
 from dataclasses import fields
 
 import tracer
+from tracer.scene_file.change import written
 from tracer.settings import Settings
 from viewer.link import Link
 
 
-def inspect_command(scene, settings, place):
-    """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for."""
+def inspect_command(scene, settings, place, changes=None):
+    """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for.
+
+    changes: of the scene's words, {key: value}.
+    """
     x, y, sample, _ = place
     words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y} --sample {sample}"]
     words.append(f"--size {settings.width} {settings.height}")
@@ -18,14 +22,15 @@ def inspect_command(scene, settings, place):
         if f.name not in ("width", "height") and value != f.default:
             option = f.name.replace("_", "-")
             words.append(f"--no-{option}" if value is False else f"--{option} {value}")
+    words += [f"--set {shlex.quote(text)}" for text in written(changes or {})]
     return " ".join(words)
 
 
-def view_command(scene, settings, place):
+def view_command(scene, settings, place, changes=None):
     """`castray view` at (x, y, sample, step); None for a scene that a link cannot name."""
     if scene not in tracer.built_in_scenes():
         return None
-    return f"castray view {shlex.quote('#' + Link(scene, settings, place).write())}"
+    return f"castray view {shlex.quote('#' + Link(scene, settings, place, changes or {}).write())}"
 
 
 def recording_command(folder, place):

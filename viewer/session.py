@@ -6,9 +6,11 @@ import numpy as np
 
 import tracer
 from lessons.zoo import planted
+from tracer.scene_file.change import changed
 from viewer.cursor import Cursor
 from viewer.link import Link
 from viewer.numerals import luminance
+from viewer.replay import inspect_command
 
 
 class Session:
@@ -20,6 +22,7 @@ class Session:
     def __init__(self, scene, settings, load):
         self.load = load
         self.adopt(scene, settings)
+        self.at_start = self.settings
 
     def adopt(self, scene, settings):
         """Turn to another scene or other settings; no pixel is picked yet."""
@@ -35,7 +38,10 @@ class Session:
 
     def open(self, link):
         """Turn to what a link says; True if that needs a new picture."""
-        scene = self.scene if link.scene == self.scene.name else self.load(link.scene)
+        here = link.scene == self.scene.name
+        scene = self.scene if here else self.load(link.scene)
+        if link.changes != scene.definition.changes:
+            scene = changed(scene, link.changes)
         settings = link.settings.at_size_of(scene)
         renewed = scene is not self.scene or settings != self.settings
         kept = self.scene, self.settings, self.spp_done, self.record, self.cursor
@@ -47,6 +53,19 @@ class Session:
             self.scene, self.settings, self.spp_done, self.record, self.cursor = kept
             raise
         return renewed
+
+    def alter(self, scene, settings):
+        """Turn to the same scene said differently, or to other settings, and stay as near as can be to the
+        place. Raises TracerError, with nothing changed, where that cannot be."""
+        kept = self.scene, self.settings, self.spp_done, self.record, self.cursor
+        before = self.cursor
+        try:
+            self.adopt(scene, settings)
+            self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
+        except tracer.TracerError:
+            self.scene, self.settings, self.spp_done, self.record, self.cursor = kept
+            raise
+        self.cursor = self.cursor.on(before.path).at(before.event)
 
     def stand(self, place):
         """Go to (x, y, path, event); without a place, where the scene has most to tell."""
@@ -74,7 +93,13 @@ class Session:
         """The moment as a link, without a key."""
         c = self.cursor
         place = (c.x, c.y, c.path, c.event) if c else None
-        return Link(self.scene.name, self._asked_settings(), place)
+        return Link(self.scene.name, self._asked_settings(), place, self.scene.definition.changes)
+
+    @property
+    def command(self):
+        """`castray inspect` of the path, in words."""
+        place = self.cursor.x, self.cursor.y, self.path.sample, self.cursor.event
+        return inspect_command(self.scene.name, self.settings, place, self.scene.definition.changes)
 
     def _asked_settings(self):
         """The settings, the size left out where it is the scene's own."""

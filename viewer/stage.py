@@ -46,14 +46,19 @@ class Layer:
         # blended over what is already there, in one pass: true transparency takes a software GL 40 ms more
         self.actor.SetForceOpaque(True)
         look = self.actor.GetProperty()
-        look.SetColor(*colour)
-        look.SetOpacity(opacity)
+        self.look(colour, opacity)
         look.SetLighting(lit)
         look.SetBackfaceCulling(culled)
         look.SetAmbient(0.65)
         look.SetDiffuse(0.45)
         self.actor.SetVisibility(False)
         renderer.AddActor(self.actor)
+
+    def look(self, colour, opacity):
+        """Take on a colour."""
+        look = self.actor.GetProperty()
+        look.SetColor(*colour)
+        look.SetOpacity(opacity)
 
     def show(self, points, cells):
         """Copy new data into the mesh. cells: triangles (F, 3), or line segments (F, 2)."""
@@ -77,6 +82,7 @@ class Surface:
     """A shape of the scene, made so that one sees what happens behind it."""
 
     def __init__(self, scene, index, low, high):
+        self.name = scene.shapes[index].name
         vertices, faces = scene.shapes[index].triangles()
         self.vertices, self.faces = np.asarray(vertices, float), np.asarray(faces, int)
         self.wall = _is_wall(self.vertices, low, high)
@@ -140,16 +146,32 @@ class Stage:
 
     def furnish(self, scene):
         """Put in another scene's surfaces and look at it."""
-        for layer in self._surfaces:
+        for _, layer in self._surfaces:
             self.renderer.RemoveActor(layer.actor)
         low, high = (np.asarray(b, float) for b in scene.bounds())
         self.size = float(np.linalg.norm(high - low))
+        self._bounds = low, high
         shapes = [Surface(scene, index, low, high) for index in range(len(scene.shapes))]
         shapes.sort(key=lambda s: not s.wall)  # what is seen through comes last, over all the rest
-        self._surfaces = [s.layer(self.renderer) for s in shapes]
+        self._surfaces = [(s, s.layer(self.renderer)) for s in shapes]
         self.strokes = Strokes(self.size)
         self.camera = viewpoint(scene, low, high)
         self._aim()
+
+    def refit(self, scene):
+        """Show the same scene with some words said differently, from where one looks."""
+        if sorted(s.name for s, _ in self._surfaces) != sorted(shape.name for shape in scene.shapes):
+            self.furnish(scene)
+            return
+        places = {shape.name: index for index, shape in enumerate(scene.shapes)}
+        fitted = []
+        for before, layer in self._surfaces:
+            surface = Surface(scene, places[before.name], *self._bounds)
+            if surface.vertices.tobytes() != before.vertices.tobytes():
+                layer.show(surface.vertices, surface.faces)
+            layer.look(surface.colour, surface.opacity)
+            fitted.append((surface, layer))
+        self._surfaces = fitted
 
     def _aim(self):
         eye = self.renderer.GetActiveCamera()

@@ -98,6 +98,15 @@ class Window:
         if cursor != before:
             self.refresh("event" if cursor.path == before.path else "path")
 
+    def alter(self, scene, settings):
+        """Show the scene said differently, or with other settings: the picture anew, the rest at once."""
+        self.pause()
+        self.session.alter(scene, settings)
+        self.stage.refit(self.session.scene)
+        self.state.update({"touched": True, "message": ""})
+        self.paint()
+        self.refresh("picture")
+
     def furnish(self):
         """Show the session's scene in 3D in place of another."""
         self.stage.furnish(self.session.scene)
@@ -128,8 +137,9 @@ class Window:
         """Begin the picture anew."""
         self.stop_painting()
         loop, settings = asyncio.get_running_loop(), self.session.settings
-        blank = bytes(12 * settings.width * settings.height)
-        self.state.rgb = blank
+        size = 12 * settings.width * settings.height
+        if len(self.state.rgb) != size:  # else the picture before stays until there is a new one
+            self.state.rgb = bytes(size)
         self._tell_progress(0, 1)
         painter = Painter(self.session.scene, settings)
 

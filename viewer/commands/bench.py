@@ -14,6 +14,7 @@ from viewer.options import (
     Json,
     Whole,
     print_json,
+    scene_of,
     settings_and_steps,
     several_whole,
     shrunk,
@@ -123,7 +124,7 @@ def bench(
         *(tuple(words or ()) for words in (integrator, strategy, sampler, precision, adaptive))
     )
     studies = []
-    for scene in map(tracer.load, scenes):
+    for scene in (scene_of(name, options) for name in scenes):
         study = Study(scene, _at_size(base, scene, reference), spps, measured, workers)
         study.willing = _willing(study, found, steps)
         studies.append(study)

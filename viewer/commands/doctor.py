@@ -1,10 +1,12 @@
 """The command `castray doctor`."""
 
+import shlex
 from dataclasses import replace
 
 import tracer
+from tracer.scene_file.change import written
 from tracer.settings import TracerError
-from viewer.options import DoctorOptions, Json, print_json, settings_and_steps, shrunk
+from viewer.options import DoctorOptions, Json, print_json, scene_of, settings_and_steps, shrunk
 
 
 def doctor(
@@ -33,6 +35,8 @@ def doctor(
         diagnosis = _shown_by_viewer(diagnosis, what)
     elif trace.settings.bug:  # which the doctor does not know
         diagnosis = diagnosis.replayed_with(f"--bug {trace.settings.bug}")
+    for text in written(trace.scene.definition.changes):
+        diagnosis = diagnosis.replayed_with(f"--set {shlex.quote(text)}")
     if json:
         print_json(diagnosis.as_dict())
     else:
@@ -69,11 +73,13 @@ def _trace(what, scene, options):
     from tracer.trace import gather
 
     if what.lower().endswith(".jsonl"):
+        if options is not None and options.set:
+            raise TracerError(f"set: {what} is of the scene as it is; --set is for scenes that are traced")
         from viewer.given import logged_trace
 
         return logged_trace(what, scene)
     if scene is not None:
         raise TracerError(f"--scene: is for a log, FILE.jsonl; {what} is none")
     settings, steps = settings_and_steps(options)
-    loaded = tracer.load(what)
+    loaded = scene_of(what, options)
     return gather(loaded, shrunk(settings, loaded), steps)

@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 import tracer
-from viewer.options import Json, PathOptions, Whole, print_json, settings_and_steps, two_whole
+from viewer.options import Json, PathOptions, Whole, print_json, scene_of, settings_and_steps, two_whole
 
 
 def inspect(
@@ -29,7 +29,7 @@ def inspect(
         Only this sample of the pixel (default: all; the brightest one is then shown event by event).
     """
     settings, steps = settings_and_steps(options)
-    loaded = tracer.load(scene)
+    loaded = scene_of(scene, options)
     record = tracer.inspect(loaded, settings, *pixel, sample, steps)
     prepared = loaded.at(record.settings)
     if json:

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 import tracer
 from tracer.picture import check_path
 from tracer.settings import TracerError
-from viewer.options import Json, PathOptions, Whole, print_json, settings_and_steps
+from viewer.options import Json, PathOptions, Whole, print_json, scene_of, settings_and_steps
 from viewer.progress import watched
 
 MOST_SPP = 4096  # samples of a pixel where only an error is asked for
@@ -64,7 +64,7 @@ def render(
     settings, steps = settings_and_steps(options)
     if until_error is not None and (options is None or options.spp == PathOptions().spp):
         settings = replace(settings, spp=MOST_SPP)
-    loaded = tracer.load(scene)
+    loaded = scene_of(scene, options)
     path = Path(f"{loaded.name}.png") if output is None else output
     check_path(path)
     if record is None and record_level is not None:

@@ -5,9 +5,8 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-import tracer
 from tracer.settings import TracerError
-from viewer.options import DoctorOptions, Json, Whole, print_json, settings_and_steps, shrunk
+from viewer.options import DoctorOptions, Json, Whole, print_json, scene_of, settings_and_steps, shrunk
 
 MOST = 1000
 
@@ -83,20 +82,21 @@ def _planted(what, scene, options):
     settings, steps = settings_and_steps(options)
     if settings.bug is None:
         raise TracerError("twin: give --bug ID (castray bugs lists them), or two traces")
-    loaded = tracer.load(what)
+    loaded = scene_of(what, options)
     wrong = shrunk(settings, loaded)
     sides = ("right", replace(wrong, bug=None), RIGHT), ("wrong", wrong, steps)
     return tuple(
-        Side(name, gather(loaded, asked, with_steps), _scene_commands(what, asked))
+        Side(name, gather(loaded, asked, with_steps), _scene_commands(what, loaded, asked))
         for name, asked, with_steps in sides
     )
 
 
-def _scene_commands(what, settings):
+def _scene_commands(what, scene, settings):
     from viewer.replay import inspect_command, view_command
 
     def commands(place):
-        both = inspect_command(what, settings, place), view_command(what, settings, place)
+        changes = scene.definition.changes
+        both = (command(what, settings, place, changes) for command in (inspect_command, view_command))
         return [command for command in both if command]
 
     return commands

@@ -2,10 +2,9 @@
 
 from typing import Annotated
 
-import tracer
 from tracer.settings import TracerError
 from viewer.link import is_link
-from viewer.options import PathOptions, Whole, settings_and_steps
+from viewer.options import PathOptions, Whole, scene_of, settings_and_steps
 
 
 def view(
@@ -42,4 +41,4 @@ def view(
         serve_recording(scene, port, browser)
         return
     settings, _ = settings_and_steps(options)
-    viewer_app.serve(tracer.load(scene), settings, port, browser)
+    viewer_app.serve(scene_of(scene, options), settings, port, browser)

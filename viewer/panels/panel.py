@@ -14,6 +14,7 @@ class Panel:
     level: what it depends on; show is asked again when that, or something before it in LEVELS, changes.
     show: (session, say) -> plain values, which the template finds under the panel's name; None if it has none.
     template: Vue template; `w` holds the words whose key starts with "ui.".
+    calls: window -> {name: function}, what its page may ask for beside the calls of viewer.calls.
     """
 
     name: str
@@ -22,3 +23,4 @@ class Panel:
     order: int
     template: str
     show: Callable | None = None
+    calls: Callable | None = None

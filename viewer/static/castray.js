@@ -265,6 +265,40 @@
     template: `<slot :mine="mine()" :take="take" :speak="speak"></slot>`,
   };
 
+  // One thing that is turned: while it moves only the newest value waits to be sent.
+  const Knob = {
+    props: ["knob", "call"],
+    setup(props) {
+      const trame = inject("trame"), held = ref(null);
+      let sending = false, waiting = null;
+      async function turn(value) {
+        held.value = waiting = value;
+        if (sending) return;
+        sending = true;
+        while (waiting !== null) {
+          const next = waiting;
+          waiting = null;
+          await trame.trigger(props.call, [props.knob.key, next]);
+        }
+        sending = false;
+        held.value = null;
+      }
+      const now = () => (held.value === null ? props.knob.value : held.value);
+      return { turn, now, short, held };
+    },
+    template: `<label class="knob" :title="knob.title"><span class="name">{{ knob.label }}</span>
+      <select v-if="knob.options || knob.choices && knob.choices.length" v-show="!knob.options || knob.options.length" :value="now()" :aria-label="knob.label"
+        :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
+        <template v-if="knob.options"><option v-for="o in knob.options" :key="o.value" :value="o.value">{{ o.text }}</option></template>
+        <template v-else><option v-for="c in knob.choices" :key="c" :value="c">{{ c }}</option></template></select>
+      <input v-if="knob.options && !knob.options.length" :type="knob.whole ? 'number' : 'text'" :value="now()" :aria-label="knob.label"
+        :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
+      <template v-if="!knob.options && !knob.choices.length"><i v-if="knob.colour" class="swatch" :style="{background: knob.colour}"></i>
+        <input type="range" :min="knob.low" :max="knob.high" :step="knob.step" :value="now()" :aria-label="knob.label"
+          :data-testid="call + '-' + knob.key" @input="turn(Number($event.target.value))"><output>{{ short(Number(now())) }}</output></template>
+    </label>`,
+  };
+
   const SHAPES = {
     first: "M6 5v14M19 5 9 12l10 7z", previous: "M17 5 7 12l10 7z", play: "M7 5l12 7-12 7z", pause: "M8 5v14M16 5v14",
     next: "M7 5l10 7-10 7z", last: "M18 5v14M5 5l10 7-10 7z", up: "M5 15l7-7 7 7", down: "M5 9l7 7 7-7", home: "M4 11l8-7 8 7v9h-5v-6h-6v6H4z",
@@ -278,7 +312,7 @@
 
   window.castray = {
     install(app) {
-      const parts = { CastrayPicture: Picture, CastrayBars: Bars, CastrayLabels: Labels, CastrayTab: Tab, CastrayIcon: Icon };
+      const parts = { CastrayPicture: Picture, CastrayBars: Bars, CastrayLabels: Labels, CastrayTab: Tab, CastrayIcon: Icon, CastrayKnob: Knob };
       for (const [name, part] of Object.entries(parts)) app.component(name, part);
     },
   };

@@ -60,6 +60,12 @@ class Speaker:
         """What a field of an event means; the schema's own words unless the table has others."""
         return self.optional(f"field.{kind.name}.{field}", kind.field(field).meaning)
 
+    def setting(self, name):
+        """What a setting means; its own words unless the table has others."""
+        from tracer.settings import Settings
+
+        return self.optional(f"setting.{name}", Settings.__dataclass_fields__[name].metadata["help"])
+
     def error(self, message):
         """An error in this language; in its own words where the table has none for it."""
         if self.language != "en":

@@ -1,0 +1,36 @@
+"""Changing a scene while one looks, and what if a path had gone otherwise."""
+
+WORDS = {
+    "en": {
+        "ui.tab_change": "Change",
+        "ui.change_reset": "As it was",
+        "ui.change_scene": "Materials and lights",
+        "ui.change_settings": "Settings",
+        "ui.change_command": "The same on the command line",
+        "change.none": "Turn something: the picture follows, coarse at first.",
+        "change.note": "{n} words of the scene are said differently.",
+        "change.more": "{n} more can be changed with --set.",
+        "change.albedo": "{name}: albedo",
+        "change.index": "{name}: index of refraction",
+        "change.roughness": "{name}: roughness α",
+        "change.metal": "{name}: metal",
+        "change.radiance": "{name}: brightness",
+        "change.size": "{name}: size",
+    },
+    "zh": {
+        "ui.tab_change": "改动",
+        "ui.change_reset": "恢复原样",
+        "ui.change_scene": "材质与光源",
+        "ui.change_settings": "设置",
+        "ui.change_command": "命令行中的相同操作",
+        "change.none": "改动任何一项：图像随之更新，先粗后细。",
+        "change.note": "场景中有 {n} 处与原来不同。",
+        "change.more": "还有 {n} 项可以用 --set 改动。",
+        "change.albedo": "{name}：反照率",
+        "change.index": "{name}：折射率",
+        "change.roughness": "{name}：粗糙度 α",
+        "change.metal": "{name}：金属",
+        "change.radiance": "{name}：亮度",
+        "change.size": "{name}：大小",
+    },
+}
