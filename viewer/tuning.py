@@ -69,10 +69,7 @@ class Knob:
         """Plain values for the page."""
         colour = css([self.value * c / (max(self.base) or 1.0) for c in self.base]) if self.base else ""
         names = ("key", "meaning", "value", "low", "high", "step")
-        return {name: getattr(self, name) for name in names} | {
-            "choices": list(self.choices),
-            "colour": colour,
-        }
+        return {name: getattr(self, name) for name in names} | {"colour": colour}
 
 
 def real_from(name, value, low, high):
@@ -96,10 +93,10 @@ def knobs(scene):
     if definition.source is None:
         return []
     now, first = definition.source[0], (definition.unchanged or definition.source)[0]
-    found = []
+    found, used = [], _used(now)
     for name, table in now.items():
         kind = kind_of(table, name) if isinstance(table, dict) else ""
-        if kind == "bsdf" and name in scene.bsdf_names:
+        if kind == "bsdf" and name in used:
             found += _material(name, table, first[name])
         elif kind == "shape" and isinstance(table.get("bsdf"), dict) and "type" in table["bsdf"]:
             found += _material(f"{name}.bsdf", table["bsdf"], first[name]["bsdf"])
@@ -110,6 +107,13 @@ def knobs(scene):
         elif kind == "emitter":
             found += _emitter(name, table, first[name])
     return found
+
+
+def _used(description):
+    """Names of the materials that shapes ask for."""
+    asked = (table.get("bsdf") for table in description.values() if isinstance(table, dict))
+    names = (said.get("id") if isinstance(said, dict) else said for said in asked)
+    return {name for name in names if isinstance(name, str)}
 
 
 def _material(place, table, first):
@@ -155,12 +159,8 @@ def _lamp(name, table, first, changes):
     found = _light(key, "radiance", table["emitter"].get("radiance"), first["emitter"].get("radiance"))
     if table["type"] == "sphere":
         radius = float(first.get("radius", 1.0))
-        return [
-            *found,
-            _number(
-                f"{name}.radius", "size", table.get("radius"), radius, radius / 10, 4 * radius, radius / 20
-            ),
-        ]
+        limits = (_short(radius * share) for share in SIZE[1:])
+        return [*found, _number(f"{name}.radius", "size", table.get("radius"), radius, *limits)]
     return [*found, _number(f"{name}.scale", "size", changes.get(f"{name}.scale"), *SIZE)]
 
 

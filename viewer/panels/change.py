@@ -38,7 +38,9 @@ def show(session, say):
 def _shown(knob, say):
     name, _, _ = knob.key.rpartition(".")
     label = say(f"change.{knob.meaning}", name=name.removesuffix(".emitter").removesuffix(".bsdf"))
-    return knob.shown() | {"label": label, "title": knob.key}
+    kind = "choice" if knob.choices else "range"
+    choices = [{"value": c, "text": c} for c in knob.choices]
+    return knob.shown() | {"label": label, "title": knob.key, "kind": kind, "choices": choices}
 
 
 def _dial(dial, say):
@@ -49,8 +51,8 @@ def _dial(dial, say):
         "label": name.replace("_", " "),
         "title": say.setting(name),
         "value": dial["value"],
-        "options": choices,
-        "whole": isinstance(dial["value"], int),
+        "choices": choices,
+        "kind": "choice" if choices else "number" if isinstance(dial["value"], int) else "text",
     }
 
 

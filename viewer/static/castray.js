@@ -287,15 +287,12 @@
       return { turn, now, short, held };
     },
     template: `<label class="knob" :title="knob.title"><span class="name">{{ knob.label }}</span>
-      <select v-if="knob.options || knob.choices && knob.choices.length" v-show="!knob.options || knob.options.length" :value="now()" :aria-label="knob.label"
-        :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
-        <template v-if="knob.options"><option v-for="o in knob.options" :key="o.value" :value="o.value">{{ o.text }}</option></template>
-        <template v-else><option v-for="c in knob.choices" :key="c" :value="c">{{ c }}</option></template></select>
-      <input v-if="knob.options && !knob.options.length" :type="knob.whole ? 'number' : 'text'" :value="now()" :aria-label="knob.label"
-        :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
-      <template v-if="!knob.options && !knob.choices.length"><i v-if="knob.colour" class="swatch" :style="{background: knob.colour}"></i>
+      <select v-if="knob.kind === 'choice'" :value="now()" :aria-label="knob.label" :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
+        <option v-for="choice in knob.choices" :key="choice.value" :value="choice.value">{{ choice.text }}</option></select>
+      <template v-else-if="knob.kind === 'range'"><i v-if="knob.colour" class="swatch" :style="{background: knob.colour}"></i>
         <input type="range" :min="knob.low" :max="knob.high" :step="knob.step" :value="now()" :aria-label="knob.label"
           :data-testid="call + '-' + knob.key" @input="turn(Number($event.target.value))"><output>{{ short(Number(now())) }}</output></template>
+      <input v-else :type="knob.kind" :value="now()" :aria-label="knob.label" :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
     </label>`,
   };
 

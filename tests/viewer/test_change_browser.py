@@ -1,0 +1,149 @@
+"""Change and see, in a browser: what is turned shows at once, and is what the command says with --set."""
+
+import json
+
+import pytest
+from suite import castray
+
+from viewer.link import parse
+from viewer.words import Speaker
+
+pytestmark = pytest.mark.browser
+
+SIZE = ("--size", "32", "32", "--spp", "4", "--max-depth", "5")
+START = "scene=cornell_unit&width=32&height=32&spp=4&max_depth=5&x=16&y=20&path=1&event=2"
+
+
+@pytest.fixture(scope="module")
+def viewer(serve):
+    """A viewer of a small picture, shared by the tests of this file."""
+    return serve("cornell_unit", *SIZE)
+
+
+@pytest.fixture(scope="module")
+def page(browser, viewer):
+    """One page for all of them, at the tab of changes."""
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        page = context.new_page()
+        page.errors = []
+        page.on("pageerror", lambda e: page.errors.append(str(e)))
+        page.goto(viewer.address)
+        page.wait_for_selector("html[data-ready]")
+        yield page
+        assert page.errors == []
+
+
+@pytest.fixture(autouse=True)
+def start(page):
+    """Every test starts at the same place of the scene as it is."""
+    page.evaluate("link => window.trame.trigger('open', [link])", START)
+    linked(page, "x=16&y=20&path=1&event=2")
+    page.get_by_test_id("tab-change").click()
+
+
+def truth(page):
+    """What the server knows."""
+    return page.evaluate("() => window.trame.trigger('truth')")
+
+
+def linked(page, text, there=True):
+    """Wait until the page's link says so, or does not."""
+    page.wait_for_function(
+        """([text, there]) => {
+          const link = document.querySelector("[data-testid=castray]").dataset.link;
+          return decodeURIComponent(link).includes(text) === there; }""",
+        arg=[text, there],
+    )
+
+
+def turn(page, call, key, value):
+    """Turn a knob as a reader does."""
+    knob = page.get_by_test_id(f"{call}-{key}")
+    if knob.evaluate("e => e.tagName") == "SELECT":
+        knob.select_option(value)
+    else:
+        knob.evaluate(
+            "(e, v) => { e.value = v; for (const k of ['input', 'change']) e.dispatchEvent(new Event(k)); }",
+            value,
+        )
+
+
+def shown(page, text):
+    """Wait until the link says so, and the picture is complete."""
+    linked(page, text)
+    page.get_by_test_id("progress").wait_for(state="detached", timeout=30_000)
+
+
+def inspected(page):
+    """What the command that the panel shows prints."""
+    import shlex
+
+    words = shlex.split(page.get_by_test_id("change-command").inner_text())
+    at = words.index("--sample")
+    done = castray(*words[1:at], *words[at + 2 :], "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_a_turned_knob_is_what_the_command_says_with_set(page):
+    before = page.get_by_test_id("pixel-value").inner_text()
+    turn(page, "change", "white.reflectance", "0.4")
+    turn(page, "change", "lamp.scale", "2")
+    shown(page, "lamp.scale=2")
+    after = truth(page)
+    assert page.get_by_test_id("pixel-value").inner_text() != before
+    assert after["record"] == inspected(page)
+    assert {k: after["cursor"][k] for k in ("x", "y", "path")} == {"x": 16, "y": 20, "path": 1}
+    assert parse(after["link"]).changes["lamp.scale"] == 2
+    page.get_by_test_id("change-reset").click()
+    page.wait_for_function(
+        "() => !document.querySelector('[data-testid=castray]').dataset.link.includes('set=')"
+    )
+    assert truth(page)["link"] == START.replace("event=2", f"event={truth(page)['cursor']['event']}")
+
+
+def test_settings_are_turned_and_what_will_not_do_is_told_in_one_line(page):
+    turn(page, "tune", "integrator", "direct")
+    turn(page, "tune", "bug", "D10")
+    shown(page, "bug=D10")
+    assert truth(page)["record"] == inspected(page)
+    turn(page, "tune", "spp", "0")
+    page.get_by_test_id("message").wait_for()
+    assert "spp" in page.get_by_test_id("message").inner_text()
+    assert parse(truth(page)["link"]).settings.spp == 4
+    page.get_by_test_id("close-message").click()
+
+
+def test_only_the_newest_of_many_moves_is_painted_to_its_end(page):
+    values = [f"{0.2 + 0.05 * k:.2f}" for k in range(10)]
+    page.get_by_test_id("change-red.reflectance").evaluate(
+        "(e, all) => all.forEach((v) => { e.value = v; e.dispatchEvent(new Event('input')); })", values
+    )
+    shown(page, "red.reflectance=[0.65")
+    there = truth(page)
+    assert there["spp_done"] == there["spp"] == 4
+    assert there["record"] == inspected(page)
+    box = page.get_by_test_id("picture").bounding_box()
+    page.mouse.move(box["x"] + box["width"] * 16.5 / 32, box["y"] + box["height"] * 20.5 / 32)
+    page.wait_for_function(
+        "() => document.querySelector('[data-testid=hover]').textContent.startsWith('(16, 20)')"
+    )
+    hovered = page.get_by_test_id("hover").inner_text().split(")")[1].split()
+    assert [float(v) for v in hovered] == pytest.approx(there["record"]["value"], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "asked", [["red.reflectance", 9], ["sensor.fov", 20], ["red.reflectance", None], [[], {}]]
+)
+def test_what_a_page_may_not_turn_changes_nothing(page, asked):
+    before = truth(page)["link"]
+    page.evaluate("asked => window.trame.trigger('change', asked)", asked)
+    assert truth(page)["link"] == before
+
+
+def test_the_panel_speaks_chinese(page):
+    page.get_by_test_id("language").select_option("zh")
+    page.wait_for_selector("html[lang=zh]")
+    assert Speaker("zh")("change.albedo", name="white") in page.get_by_test_id("change").inner_text()
+    page.get_by_test_id("language").select_option("en")
+    page.wait_for_selector("html[lang=en]")
