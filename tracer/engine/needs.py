@@ -56,6 +56,8 @@ def _shadows(scene, samples):
         spared += [scene.shapes[k].name for k in arrangement.walls]
         asked -= 1
     why = f"{asked} to ask" + (f"; never in the way: {_some(spared)}" if spared else "")
+    partly = [scene.shapes[k].name for k in arrangement.shading]
+    why += f"; only where their shadow may fall: {_some(partly)}" if partly else ""
     yield Need("shadow rays", samples and asked > 0, why if samples else "no light samples")
 
 
@@ -95,8 +97,10 @@ def _geometry(scene):
     yield Need(
         "smooth normals", smooth, "a mesh has its own" if smooth else "every surface is shaded as it is"
     )
-    meshes = [shape.name for shape in scene.shapes if hasattr(shape, "put_inside")]
-    yield Need("trees of boxes", bool(meshes), _some(meshes) if meshes else "no triangle meshes")
+    few = [scene.shapes[k].name for k in scene.arrangement.few]
+    yield Need("meshes met by planes", bool(few), _some(few) if few else "no triangle mesh has few triangles")
+    meshes = [s.name for s in scene.shapes if hasattr(s, "put_inside") and s.name not in few]
+    yield Need("trees of boxes", bool(meshes), _some(meshes) if meshes else "no large triangle meshes")
 
 
 def _paths(scene, settings):

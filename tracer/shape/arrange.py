@@ -1,8 +1,10 @@
 """Which routine answers for which shapes, decided once per scene: what cannot matter is not asked.
 
-For the nearest hit, walls of one box are asked together (see room). For shadows three sorts of shape are not
-asked at all: walls, where the box holds receiver and lamp; a rectangle with everything in front of it, which
-no segment between two surfaces crosses; and the only face that shines, which every shadow ray ends on.
+For the nearest hit, walls of one box are asked together (see room), and meshes of few triangles plane by
+plane (see few). For shadows three sorts of shape are not asked at all: walls, where the box holds receiver
+and lamp; a rectangle with everything in front of it, which no segment between two surfaces crosses; and the
+only face that shines, which every shadow ray ends on. The others are asked where their shadow may fall (see
+cull).
 """
 
 from functools import partial
@@ -10,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.shape import embree_kernel, room
+from tracer.shape import embree_kernel, few, room
+from tracer.shape.cull import Shadow
 from tracer.shape.rays import linear
 from tracer.shape.rectangle import Rectangle
 from tracer.shape.sphere import Sphere
@@ -29,6 +32,8 @@ class Arrangement(NamedTuple):
     walls: tuple  # numbers of the shapes that are walls of one box
     walls_never_block: bool  # what lies in it
     harmless: tuple  # numbers of the other shapes that never block
+    shading: tuple  # numbers of the shapes that block light only from part of the scene
+    few: tuple  # numbers of the meshes that are met plane by plane
 
 
 def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype, accel):
@@ -41,6 +46,11 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype, ac
     kernels = [shape.kernel(int(k), extent, dtype, others) for shape, k in zip(shapes, first, strict=True)]
     if accel == "embree":
         kernels = [embree_kernel.through_embree(kernel) for kernel in kernels]
+    corners = np.hstack([_corners(shape) for shape in shapes])
+    kernels = [
+        few.by_planes(kernel, shape, extent, dtype, others)
+        for kernel, shape in zip(kernels, shapes, strict=True)
+    ]
     # Lamps first: of surfaces at exactly the same distance the first is met.
     order = sorted(range(len(shapes)), key=lambda k: not shining[k])
     sides = room.find(shapes, sealed)
@@ -50,15 +60,20 @@ def arrange(shapes, first, sealed, shining, elsewhere, extent, others, dtype, ac
         _ahead_of_walls(kernels[k], shapes, k, extent, dtype) if shining[k] else kernels[k] for k in order
     ]
     harmless = () if elsewhere else tuple(_harmless(shapes, shining, walls))
-    blocking = [partial(_blocks, kernels[k]) for k in order if k not in harmless]
+    lamps = None
+    if any(shining) and not elsewhere:
+        lamps = np.hstack([_corners(shape) for shape, lit in zip(shapes, shining, strict=True) if lit])
+    blockers = [k for k in order if k not in harmless]
+    blocking = [_blocker(kernels[k], shapes[k], shining[k], lamps, corners, dtype, others) for k in blockers]
     never = False
     if walls:
         box = room.RoomKernel(sides, shapes, kernels, dtype)
-        lamps = [shape for shape, lit in zip(shapes, shining, strict=True) if lit]
-        box.never_blocks = never = not elsewhere and all(box.holds(_corners(lamp)) for lamp in lamps)
+        box.never_blocks = never = not elsewhere and (lamps is None or box.holds(lamps))
         closest.insert(sum(bool(shining[k]) for k in order), box)
         blocking.append(box.blocks)
-    return Arrangement(closest, blocking, walls, never, harmless)
+    shading = tuple(k for k, blocks in zip(blockers, blocking, strict=False) if isinstance(blocks, Shadow))
+    by_planes = tuple(k for k, kernel in enumerate(kernels) if isinstance(kernel, few.FewKernel))
+    return Arrangement(closest, blocking, walls, never, harmless, shading, by_planes)
 
 
 class InAWall:
@@ -90,6 +105,17 @@ def _ahead_of_walls(kernel, shapes, lamp, extent, dtype):
             if (np.abs(n_wall.T @ corners - c_wall[:, None]) <= hair).all(axis=1).any():
                 return InAWall(kernel, tuple(dtype(v) for v in n), hair)
     return kernel
+
+
+def _blocker(kernel, shape, shines, lamps, corners, dtype, others):
+    """What tells whether a shape blocks shadow rays; lamps, corners: points (3, K) whose convex hulls
+    hold all lights and the scene; lamps is None where there are others."""
+    if lamps is not None:
+        bounds = corners.min(axis=1), corners.max(axis=1)
+        shadow = Shadow(kernel, shape, _corners(shape), shines, lamps, bounds, dtype, others)
+        if shadow.tells:
+            return shadow
+    return partial(_blocks, kernel)
 
 
 def _blocks(kernel, rays, distance):
