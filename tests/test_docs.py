@@ -1,6 +1,7 @@
 """The papers tell the truth: examples run, links lead somewhere, the floors are those that are tested."""
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -75,12 +76,20 @@ def test_the_scene_of_the_readme_renders(tmp_path):
 
 
 @pytest.mark.slow
-def test_the_python_of_the_readme_runs():
-    (body,) = blocks("README.md", "python")
-    done = subprocess.run(
-        [sys.executable, "-c", body], cwd=ROOT, capture_output=True, encoding="utf-8", check=False
-    )
-    assert done.returncode == 0, done.stderr
+def test_the_python_of_the_readme_runs(tmp_path):
+    for number, body in enumerate(blocks("README.md", "python")):
+        file = tmp_path / f"test_{number}.py"
+        file.write_text(body, encoding="utf-8")
+        suite = ["-m", "pytest", "-q", "-p", "no:cacheprovider"] if "def test_" in body else []
+        done = subprocess.run(
+            [sys.executable, *suite, str(file)],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.slow

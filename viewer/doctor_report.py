@@ -20,7 +20,9 @@ def print_diagnosis(diagnosis, trace, console=None):
     head = say("doctor.head", scene=trace.scene.name, paths=trace.size, vertices=trace.vertices, **about)
     console.print(head)
     console.print()
-    if not diagnosis.findings:
+    if all(verdict.state == "not_testable" for verdict in diagnosis.rules):
+        console.print(Text(say("doctor.unjudged"), style="bold yellow"))
+    elif not diagnosis.findings:
         console.print(Text(say("doctor.nothing"), style="bold green"))
     for number, finding in enumerate(diagnosis.findings):
         if number == 0:

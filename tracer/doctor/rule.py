@@ -18,8 +18,9 @@ class NotRecordedError(KeyError):
 class Rule:
     """One law of light transport, as it can be held against events.
 
-    law: in words; formula: in symbols; needs: columns "kind.field" that judging takes; judge: from the
-    Evidence to an Outcome, or None where nothing here falls under the law.
+    law: in words; formula: in symbols; needs: columns "kind.field" that judging takes, first the one that is
+    judged: where it was assumed, nothing is proved; judge: from the Evidence to an Outcome, or None where
+    nothing here falls under the law.
     """
 
     id: str
@@ -78,6 +79,8 @@ def applied(rule, evidence):
     missing = [place for place in rule.needs if not evidence.has(place)]
     if missing:
         return Verdict(rule, NOT_TESTABLE, missing=", ".join(missing))
+    if rule.needs[0] in evidence.trace.assumed:
+        return Verdict(rule, NOT_TESTABLE, missing=f"{rule.needs[0]} is worked out by this law")
     if not evidence.count(rule.kind):
         return Verdict(rule, NOT_TESTABLE, missing=f"no {rule.kind} events")
     try:

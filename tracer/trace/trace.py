@@ -39,7 +39,8 @@ class Trace:
     paths: name -> (..., P) column: x, y, sample, film (2), radiance (3), end (number in events.END_REASONS),
     vertices. tables: name of a kind -> Table, for each of events.KINDS. eps: relative precision of the
     numbers: the machine epsilon of the loop's, or half a unit of the last printed digit. rebuilt: fields,
-    "kind.field", that were not recorded but worked out from others and the scene: they prove nothing.
+    "kind.field", that were not recorded but worked out from others and the scene. assumed: those of them that
+    were worked out by the very law about them, so that they cannot break it.
     culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
     """
 
@@ -49,6 +50,7 @@ class Trace:
     tables: dict
     eps: float
     rebuilt: frozenset = frozenset()
+    assumed: frozenset = frozenset()
     culled: bool = False
 
     @property

@@ -43,6 +43,7 @@ WORDS = {
         "inspect.shown": "* shown above; --sample K shows another",
         # castray doctor
         "doctor.head": "{scene}, {width} x {height}, {spp} spp, {integrator}: {paths} paths, {vertices} vertices",
+        "doctor.unjudged": "No law could be held against it.",
         "doctor.nothing": "No law is broken.",
         "doctor.not_so": "{title}: not so at {count} of {checked}",
         "doctor.follows": "{title}: not so at {count} of {checked}; follows from {cause}",
@@ -117,6 +118,7 @@ WORDS = {
         "inspect.replicates": "误差由 {parts} 个独立副本的离散程度得出",
         "inspect.shown": "* 上面显示的样本；用 --sample K 显示另一个",
         "doctor.head": "{scene}，{width} x {height}，{spp} spp，{integrator}：{paths} 条路径，{vertices} 个顶点",
+        "doctor.unjudged": "没有任何定律可用来检验它。",
         "doctor.nothing": "没有违反任何定律。",
         "doctor.not_so": "{title}：{checked} 处中有 {count} 处不符",
         "doctor.follows": "{title}：{checked} 处中有 {count} 处不符；由 {cause} 引起",

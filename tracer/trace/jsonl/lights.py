@@ -14,7 +14,7 @@ class Lights(Stages):
     def _light(self):
         """Columns of light samples but for throughput and contribution."""
         rows = self.rows["light"]
-        said = lambda name, otherwise=None: self._said("light", name, otherwise)  # noqa: E731
+        said = lambda name, *otherwise: self._said("light", name, *otherwise)  # noqa: E731
         found = {name: said(name) for name in ("u", "transmittance")}
         q, p = said("q"), self.places.p[:, rows]
         found |= {"q": q, "f": said("f"), "Le": said("Le"), "wi": said("wi"), "visible": said("visible")}
@@ -30,7 +30,8 @@ class Lights(Stages):
             found["nq"] = nq = said("nq", lambda: ng)
             front = -dot(ng, found["wi"]) > 0.0
             found["Le"] = said("Le", lambda: self._radiance(primitive, front)) * front
-            found["pdf"] = said("pdf", lambda: self._density(found, p, ng))
+            by_area = bool(self.chain.given("light.pdf_area")[rows].all())
+            found["pdf"] = said("pdf", lambda: self._density(found, p, ng), by_area)
             found["cos_light"] = said("cos_light", lambda: -dot(nq, found["wi"]))
             if len(self.scene.light_names) == 1:
                 found["pick"] = said("pick", lambda: np.ones(rows.size))
@@ -48,7 +49,7 @@ class Lights(Stages):
         found["technique"] = said("technique", lambda: np.full(rows.size, way))
         if self._all_given("direct", rows):
             direct = self.chain("direct")[:, rows]
-            found["visible"] = said("visible", lambda: (direct != 0.0).any(axis=0))
+            found["visible"] = said("visible", lambda: (direct != 0.0).any(axis=0), True)
             self._as_near_as_points_say(found, direct, rows)
         self._beneath(found, rows)
         return found
@@ -132,4 +133,5 @@ class Lights(Stages):
             with np.errstate(all="ignore"):
                 light["contribution"] = beta[:, rows] * np.where(light["pdf"] > 0.0, term / light["pdf"], 0.0)
             self.rebuilt.add("light.contribution")
+            self.assumed.add("light.contribution")
         return light

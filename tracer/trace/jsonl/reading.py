@@ -125,11 +125,15 @@ def _of_calls(read, scene, exact, settings):
     telling = told.Telling(chain, where, exact, scene.dtype, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
+    assumed = telling.assumed | _summed(tables)
     paths = _paths(
         tables, {name: _value(chain.columns, name, root) for name in ("x", "y", "sample")}, root.size
     )
     rebuilt = frozenset(telling.rebuilt)
-    trace = Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, culled=True)
+    trace = Trace(
+        scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, frozenset(assumed),
+        culled=True,
+    )  # fmt: skip
     return trace, [*chain.notes, *notes]
 
 
@@ -137,6 +141,11 @@ def _value(columns, name, rows):
     if name not in columns.values:
         return np.arange(rows.size) if name == "sample" else np.zeros(rows.size, np.int64)
     return columns.values[name][rows].astype(np.int64)
+
+
+def _summed(tables):
+    """Whether the radiance of paths will be the sum of their terms, as the name of what is assumed then."""
+    return {"path.radiance"} if tables["end"]["radiance"] is None else set()
 
 
 def _paths(tables, place, size):
@@ -198,11 +207,14 @@ def _of_events(read, scene, exact, settings):
         depth = found.values.get("depth", np.zeros(path.size, np.int64))
         tables[kind] = Table(path[order], step[order], depth[order], columns)
     _with_ends(tables, first.size)
+    assumed = frozenset(_summed(tables))
     paths = _paths(tables, place, first.size)
     tables = {
         name: replace(table, columns=compact(table.columns, scene.dtype)) for name, table in tables.items()
     }
-    trace = Trace(scene, settings, compact(paths, scene.dtype), tables, read.header.eps, culled=True)
+    trace = Trace(
+        scene, settings, compact(paths, scene.dtype), tables, read.header.eps, assumed=assumed, culled=True
+    )
     return trace, _of_tables(exact, tables)
 
 

@@ -15,7 +15,8 @@ _LEAKS = 1e-3  # share of calls that meet nothing because a ray slipped through 
 
 @dataclass
 class Stages:
-    """Which events each call has, and what was logged of them; `rebuilt` are "kind.field" that were not."""
+    """Which events each call has, and what was logged of them; `rebuilt` are "kind.field" that were not, and
+    `assumed` those of them that the law about them was asked for."""
 
     chain: Any
     places: Places
@@ -28,7 +29,7 @@ class Stages:
 
     def __post_init__(self):
         chain, places = self.chain, self.places
-        self.rebuilt = set()
+        self.rebuilt, self.assumed = set(), set()
         self.vertex = places.vertex(slice(None))
         self.dark = geometry.dark(self.scene, self.vertex)
         self.q = self._probability()
@@ -101,9 +102,9 @@ class Stages:
         kept = compact(kept, self.dtype)
         return Table(self.chain.path[rows], self.steps[kind][rows], depth[rows], kept)
 
-    def _said(self, kind, name, otherwise=None):
+    def _said(self, kind, name, otherwise=None, of_log=False):
         """A column of an event of a kind: as logged, elsewhere as `otherwise` (made when needed) has it; None
-        where neither is known."""
+        where neither is known. of_log: whether that comes from other numbers of the log, not from the law."""
         rows, key = self.rows[kind], f"{kind}.{name}"
         given = self.chain.given(key)[rows]
         column = self.chain(key)[..., rows] if given.any() else None
@@ -114,6 +115,8 @@ class Stages:
             return None
         if column is None or np.count_nonzero(given) < 0.5 * given.size:
             self.rebuilt.add(key)
+            if not of_log:
+                self.assumed.add(key)
         if column is None:
             return rest
         np.copyto(column, rest, where=~given)

@@ -95,7 +95,7 @@ class Telling(Lights, Bounces):
         shining = Le.max(axis=0) > 0.0
         with np.errstate(all="ignore"):
             share = own.max(axis=0) / Le.max(axis=0)
-            w = self._said("hit", "w", lambda: np.where(shining, share, 1.0))
+            w = self._said("hit", "w", lambda: np.where(shining, share, 1.0), of_log=True)
             return {"w": w, "contribution": None if beta is None else beta[:, rows] * own}
 
     def _found_by_light(self, rows, Le, front):
