@@ -1,5 +1,6 @@
 """The viewer as a program: a server on this machine, its address, and how it ends."""
 
+import asyncio
 import errno
 import importlib.util
 import sys
@@ -10,17 +11,18 @@ import tracer
 from tracer.scene_file.change import changed
 from tracer.settings import TracerError
 from viewer import link as links
-from viewer.security import STATIC, Door, page, restrict
+from viewer.security import STATIC, Door, files, page, restrict
 from viewer.session import Session
 from viewer.words import Speaker
 
 
-def serve(scene, settings, port=None, open_browser=True, start=None):
+def serve(scene, settings, port=None, open_browser=True, start=None, recording=None):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
-    start: (x, y, path, event), or None for a telling place. TracerError where port or place will not do.
+    start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of. TracerError
+    where port or place will not do.
     """
-    session = Session(scene, settings, Scenes(scene).find)
+    session = Session(scene, settings, Scenes(scene).find, recording)
     try:
         session.stand(start)
     except IndexError as error:
@@ -59,7 +61,8 @@ def _run(session, port, open_browser):
 
     say, server = Speaker(), get_server("castray", client_type="vue3")
     served = {"castray": str(STATIC), "fonts": _fonts()}
-    server.enable_module({"serve": served, "scripts": ["castray/castray.js"], "vue_use": ["castray"]})
+    scripts = [f"castray/{name}" for name in files(".js") if name != "boot.js"]
+    server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
     server.state.trame__title = say("title")
     window, door = Window(server, session, say), Door(page(say("title")))
 
@@ -68,6 +71,7 @@ def _run(session, port, open_browser):
         restrict(web_server, Calls(window).by_name, window.whole_stage)
 
     def ready(**_):
+        window.loop = asyncio.get_running_loop()
         address = f"http://127.0.0.1:{server.port}/?key={door.key}"
         print(address, flush=True)
         window.paint()
@@ -82,6 +86,7 @@ def _run(session, port, open_browser):
         pass
     finally:
         window.stop_painting()
+        session.close()
     print("castray: viewer closed", file=sys.stderr)
 
 

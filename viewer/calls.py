@@ -8,6 +8,7 @@ from viewer.cursor import MOVES
 from viewer.panels import all_panels
 from viewer.words import LANGUAGES
 
+OWN = "go pick back uncover path event play open take speak dismiss truth".split()
 MOST_DIGITS = 9
 LONGEST_TAB = 64
 
@@ -17,8 +18,7 @@ class Calls:
 
     def __init__(self, window):
         self.window, self.session, self.state = window, window.session, window.state
-        names = ("go", "pick", "path", "event", "play", "open", "take", "speak", "dismiss", "truth")
-        calls = {name: getattr(self, name) for name in names}
+        calls = {name: getattr(self, name) for name in OWN}
         for panel in all_panels():
             calls |= panel.calls(window) if panel.calls else {}
         self.by_name = {name: self._told(call) for name, call in calls.items()}
@@ -49,6 +49,20 @@ class Calls:
         self.session.pick(x, y)
         self.state.update({"touched": True, "message": ""})
         self.window.refresh("pixel")
+
+    def back(self, by):
+        """Turn to a pixel that was picked before, or after this one."""
+        if by not in (-1, 1):
+            raise TracerError("back: goes by -1 or 1")
+        pixel = self.session.history.moved(by)
+        if pixel is not None:
+            self.window.pause()
+            self.session.pick(*pixel)
+            self.window.refresh("pixel")
+
+    def uncover(self):
+        """The picture alone, with nothing laid over it."""
+        self.window.cover(None)
 
     def path(self, index):
         """Select a path by its place."""

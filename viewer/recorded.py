@@ -27,7 +27,7 @@ def serve_recording(text, port=None, open_browser=True):
         said = compared(place, scene, *start[:2])
         if said:
             print(f"castray: {said}", file=sys.stderr)
-    app.serve(scene, place.settings, port, open_browser, start)
+    app.serve(scene, place.settings, port, open_browser, start, place)
 
 
 def compared(place, scene, x, y):

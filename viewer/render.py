@@ -27,7 +27,7 @@ class Painter:
         self.scene, self.settings, self._stop = scene, settings, threading.Event()
 
     def start(self, done, progress, failed):
-        """done(rgb, samples), progress(share, samples) and failed(text) are called in that thread."""
+        """done(picture, samples), progress(share, samples) and failed(text) are called in that thread."""
         threading.Thread(target=self._work, args=(done, progress, failed), daemon=True).start()
 
     def stop(self):
@@ -44,7 +44,7 @@ class Painter:
                     steps=planted(self.settings),
                 )
                 self._check()
-                done(picture.rgb, spp)
+                done(picture, spp)
         except Stopped:
             return
         except (tracer.TracerError, MemoryError, OSError) as error:

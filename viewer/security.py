@@ -102,6 +102,12 @@ def _policy(port):
     )
 
 
+def files(ending):
+    """The page's own scripts or style sheets, the one that the others lean on first."""
+    names = (file.name for file in STATIC.glob(f"*{ending}"))
+    return sorted(names, key=lambda name: (not name.startswith("castray."), name))
+
+
 def page(title):
     """trame's page without its inline script, which the policy forbids, and with ours first."""
     from trame_client.module.vue3 import www
@@ -118,7 +124,7 @@ def page(title):
         '<script src="vue.global.js"></script>',
         *(f'<script type="module" src="{src}"></script>' for src in scripts),
         *(f'<link rel="stylesheet" href="{href}">' for href in styles),
-        '<link rel="stylesheet" href="castray/castray.css">',
+        *(f'<link rel="stylesheet" href="castray/{name}">' for name in files(".css")),
         '</head><body><div id="app"></div></body></html>',
     ]
     return "\n".join(lines)

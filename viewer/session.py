@@ -8,33 +8,47 @@ import tracer
 from lessons.zoo import planted
 from tracer.scene_file.change import changed
 from viewer.cursor import Cursor
+from viewer.history import History
 from viewer.link import Link
 from viewer.numerals import luminance
 from viewer.replay import inspect_command
+
+KEPT = ("scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history")
 
 
 class Session:
     """The one truth behind every panel.
 
     load: from the name of a scene a link may ask for to that scene; TracerError where it may not.
+    recording: the Folder that scene and settings come from, if there is one.
     """
 
-    def __init__(self, scene, settings, load):
-        self.load = load
+    def __init__(self, scene, settings, load, recording=None):
+        self.load, self.desk = load, {}
         self.adopt(scene, settings)
         self.at_start = self.settings
+        self.recording = recording
 
     def adopt(self, scene, settings):
         """Turn to another scene or other settings; no pixel is picked yet."""
+        self.close()
         self.scene, self.settings = scene, settings.at_size_of(scene)
-        self.spp_done = 0
-        self.record, self.cursor = None, None
+        self.spp_done, self.picture = 0, None
+        self.recording, self.overlay = None, None
+        self.record, self.cursor, self.history = None, None, History()
+
+    def close(self):
+        """Forget what the panels keep of the scene: desk has it by their names."""
+        for kept in self.desk.values():
+            kept.close()
+        self.desk = {}
 
     def pick(self, x, y):
         """Re-trace a pixel with the recorder on and stand at the start of its brightest path."""
         self.record = tracer.inspect(self.scene, self.settings, x, y, steps=planted(self.settings))
         lengths = tuple(len(path.events) for path in self.record.paths)
         self.cursor = Cursor(x, y, lengths, brightest(self.record))
+        self.history.add((x, y))
 
     def open(self, link):
         """Turn to what a link says; True if that needs a new picture."""
@@ -44,31 +58,32 @@ class Session:
             scene = changed(scene, link.changes)
         settings = link.settings.at_size_of(scene)
         renewed = scene is not self.scene or settings != self.settings
-        kept = self.scene, self.settings, self.spp_done, self.record, self.cursor
+        kept = {name: getattr(self, name) for name in KEPT}
         try:
             if renewed:
                 self.adopt(scene, settings)
             self.stand(link.place)
         except (tracer.TracerError, IndexError):
-            self.scene, self.settings, self.spp_done, self.record, self.cursor = kept
+            vars(self).update(kept)
             raise
         return renewed
 
     def alter(self, scene, settings):
         """Turn to the same scene said differently, or to other settings, and stay as near as can be to the
         place. Raises TracerError, with nothing changed, where that cannot be."""
-        kept = self.scene, self.settings, self.spp_done, self.record, self.cursor
+        kept = {name: getattr(self, name) for name in KEPT}
         before = self.cursor
         try:
             self.adopt(scene, settings)
             self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
         except tracer.TracerError:
-            self.scene, self.settings, self.spp_done, self.record, self.cursor = kept
+            vars(self).update(kept)
             raise
         self.cursor = self.cursor.on(before.path).at(before.event)
 
     def stand(self, place):
-        """Go to (x, y, path, event); without a place, where the scene has most to tell."""
+        """Go to (x, y, path, event), event None to where the path is given most; without a place, where the
+        scene has most to tell."""
         if place is None:
             self.pick(*telling_pixel(self.scene, self.settings))
             self.cursor = self.cursor.at(most_giving(self.path))
@@ -76,6 +91,8 @@ class Session:
         x, y, path, event = place
         if self.cursor is None or (x, y) != (self.cursor.x, self.cursor.y):
             self.pick(x, y)
+        self.cursor = Cursor(x, y, self.cursor.lengths, path)
+        event = most_giving(self.path) if event is None else event
         self.cursor = Cursor(x, y, self.cursor.lengths, path, event)
 
     @property
@@ -87,6 +104,11 @@ class Session:
     def event(self):
         """The recorded event the reader stands at."""
         return self.path.events[self.cursor.event]
+
+    @property
+    def pace(self):
+        """Seconds that a path of this picture took, None before there is one."""
+        return self.picture and self.picture.seconds / self.picture.paths
 
     @property
     def link(self):

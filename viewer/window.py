@@ -20,9 +20,17 @@ class Window:
     def __init__(self, server, session, say):
         self.server, self.state, self.session, self.say = server, server.state, session, say
         self.stage = Stage(session.scene)
-        self.painter, self.playing, self.rendered = None, None, None
+        self.painter, self.playing, self.rendered, self.loop = None, None, None, None
         self._build()
         self.refresh("picture")
+
+    def back(self, call, *told):
+        """Have a call made in the server's loop, from any thread, and the page told what it changed."""
+        self.loop.call_soon_threadsafe(self._within, call, *told)
+
+    def _within(self, call, *told):
+        with self.state:
+            call(*told)
 
     def _build(self):
         from trame_client.ui.html import DivLayout
@@ -39,7 +47,14 @@ class Window:
         state.update({"tab": first_tab, "exposure": 0, "owner": "", "touched": False, "languages": languages})
         self._put_words()
         state.update(
-            {"message": "", "progress": "", "playing": False, "rgb": b"", "camera": self.stage.camera}
+            {
+                "message": "",
+                "progress": "",
+                "playing": False,
+                "rgb": b"",
+                "overlay_values": b"",
+                "camera": self.stage.camera,
+            }
         )
         with DivLayout(server):
             view = VtkLocalView(self.stage.window, ref="view", connect_parent=False, trame_server=server)
@@ -76,6 +91,25 @@ class Window:
                 "header": self._header(),
             }
         )
+
+    def show(self, name):
+        """Show one panel again."""
+        panel = next(p for p in all_panels() if p.name == name)
+        self.state[name] = panel.show(self.session, self.say)
+
+    def cover(self, overlay):
+        """Lay an Overlay over the picture, or take away what lies there (None)."""
+        before, self.session.overlay = self.session.overlay, overlay
+        self.state.overlay_values = overlay.bytes() if overlay else b""
+        for name in {"picture", *(laid.by for laid in (before, overlay) if laid)}:
+            self.show(name)
+
+    def go_to(self, place):
+        """Turn to (x, y, path, event); event None: where the path is given most."""
+        self.pause()
+        self.session.stand(place)
+        self.state.update({"touched": True, "message": ""})
+        self.refresh("pixel")
 
     def _push_stage(self):
         """Send what changed in 3D; the whole is sent when a page asks for the state."""
@@ -157,11 +191,11 @@ class Window:
         if self.painter:
             self.painter.stop()
 
-    def _painted(self, rgb, spp):
-        self.session.spp_done = spp
+    def _painted(self, picture, spp):
+        self.session.spp_done, self.session.picture = spp, picture
         complete = spp == self.session.settings.spp
         with self.state as state:
-            state.rgb = rgb.tobytes()
+            state.rgb = picture.rgb.tobytes()
             self._tell_progress(None if complete else 0, spp)
 
     def _progress(self, share, spp):

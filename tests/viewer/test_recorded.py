@@ -56,23 +56,6 @@ def test_the_command_that_a_query_prints_opens_the_event(box, opened, capsys):
     assert first["link"].startswith("#scene=cornell_unit&")
 
 
-def test_each_finding_of_a_recording_opens_at_its_event(box, opened, capsys):
-    import shlex
-
-    assert run("doctor", box, "--json") == 1
-    findings = json.loads(capsys.readouterr().out)["findings"]
-    assert findings[0]["bug"] == "E01"
-    for finding in (f for f in findings if f["first"]["step"] is not None):
-        assert run(*shlex.split(finding["command"])[1:], "--no-browser") == 0
-        session, first = opened.pop(), finding["first"]
-        assert (session.event.kind.name, session.event.step) == (first["kind"], first["step"])
-        assert (session.cursor.x, session.cursor.y, session.path.sample) == (
-            first["x"],
-            first["y"],
-            first["sample"],
-        )
-
-
 def test_a_recording_from_another_machine_is_compared(box):
     place = folder.whole(box)
     scene = tracer.load("cornell_unit")
@@ -90,7 +73,6 @@ def test_a_recording_from_another_machine_is_compared(box):
         (("view", "box#x=99&y=0"), "outside the picture"),
         (("view", "box#y=0"), "without x and y"),
         (("view", "box", "--spp", "4"), "has its own settings"),
-        (("doctor", "box", "--spp", "4"), "its own scene and settings"),
         (("query", "box", "depth > 0", "--limit", "0"), "limit"),
         (("query", "box"), "give a condition"),
         (("query", "nowhere", "depth > 0"), "nowhere: is not there"),

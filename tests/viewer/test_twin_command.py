@@ -67,8 +67,7 @@ def test_no_difference_is_said_and_is_code_0(capsys):
 
 
 def test_the_commands_it_prints_show_the_event(capsys, opened):
-    brighter = ("--set", "lamp.emitter.radiance=[20, 20, 20]")
-    assert run("twin", "cornell_unit", *SMALL, *brighter, "--bug", "D01", "--limit", 1, "--json") == 1
+    assert run("twin", "cornell_unit", *SMALL, "--bug", "D01", "--limit", 1, "--json") == 1
     (first,) = json.loads(capsys.readouterr().out)["largest"]
     for commands, step, kind, seen in zip(
         first["commands"], first["steps"], first["kinds"], first["numbers"]["visible"], strict=True
@@ -76,9 +75,7 @@ def test_the_commands_it_prints_show_the_event(capsys, opened):
         inspect, view = (shlex.split(command)[1:] for command in commands)
         assert run(*inspect, "--json") == 0
         (path,) = json.loads(capsys.readouterr().out)["samples"]
-        event = path["events"][step]
-        assert (event["kind"], event["visible"]) == (kind, seen)
-        assert event["Le"] == [20.0, 20.0, 20.0]
+        assert (path["events"][step]["kind"], path["events"][step]["visible"]) == (kind, seen)
         assert run(*view, "--no-browser") == 0
         session = opened.pop()
         assert session.event.kind.name == kind and session.event.values["visible"] == seen

@@ -19,11 +19,25 @@ SECONDS = 60.0
 MEMORY = 1 << 30  # bytes that DuckDB may use
 ADDRESSES = 6 << 30  # bytes the process may ask the system for, where that can be limited
 LONGEST = 10_000  # characters
+TOO_LARGE = TracerError("query: needs too much memory; ask for less")
 _READS = re.compile(
     r"read_|_scan|^glob$|parquet_|sniff_|^query|duckdb_|pragma_|^write_"
     r"|^getenv$|setting|logging|^which_secret$"
 )
+
 _WORD = re.compile(r"\s*(?:--[^\n]*\n\s*)*\(*\s*(select|with|from)\b", re.IGNORECASE)
+
+
+class QueryError(TracerError):
+    """What is wrong with a query, as one line, and taken apart for who shows it otherwise.
+
+    words: what is wrong alone; at: which character of the query it is about, from 0, None where none is
+    known; names: the columns there are.
+    """
+
+    def __init__(self, line, words="", at=None, names=()):
+        super().__init__(line)
+        self.words, self.at, self.names = words or line, at, tuple(names)
 
 
 def ask(path, text, limit=20, seconds=SECONDS):
@@ -35,12 +49,7 @@ def ask(path, text, limit=20, seconds=SECONDS):
     there is.
     """
     place = folder.whole(path)
-    if len(text) > LONGEST:
-        raise TracerError(f"query: longer than {LONGEST} characters")
-    if not text.strip():
-        raise TracerError(
-            "query: is empty; give a condition, such as 'depth >= 2 AND pdf < 1e-4', or a SELECT"
-        )
+    check(text)
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe(duplex=False)
     child = context.Process(target=_work, args=(theirs, place, text, limit), daemon=True)
@@ -56,22 +65,33 @@ def ask(path, text, limit=20, seconds=SECONDS):
         child.kill()
         child.join()
     if not good:
-        raise TracerError(answer)
+        raise answer
     return answer
+
+
+def check(text):
+    """TracerError unless a text is short enough to be asked, and not empty."""
+    if len(text) > LONGEST:
+        raise TracerError(f"query: longer than {LONGEST} characters")
+    if not text.strip():
+        raise TracerError(
+            "query: is empty; give a condition, such as 'depth >= 2 AND pdf < 1e-4', or a SELECT"
+        )
 
 
 def _work(line, place, text, limit):
     """The child's life: one question."""
     try:
-        _limit_memory()
+        limit_memory()
         line.send((True, answer(place, text, limit)))
     except TracerError as error:
-        line.send((False, str(error)))
+        line.send((False, error))
     except MemoryError:
-        line.send((False, "query: needs too much memory; ask for less"))
+        line.send((False, TOO_LARGE))
 
 
-def _limit_memory():
+def limit_memory():
+    """Let this process ask the system for so much memory and no more, where that can be limited."""
     try:
         resource = import_module("resource")
         resource.setrlimit(resource.RLIMIT_AS, (ADDRESSES, ADDRESSES))
@@ -81,27 +101,31 @@ def _limit_memory():
 
 def answer(place, text, limit):
     """As ask, in this process."""
+    return answered(connection(place), place.level, text, limit)
+
+
+def answered(connection, level, text, limit):
+    """As ask, of a connection to a recording of that level."""
     import duckdb
 
-    connection = _connection(place)
-    before = "" if _is_select(text) else f"SELECT 1 FROM {_view(place)} WHERE (\n"
+    before = "" if _is_select(text) else f"SELECT 1 FROM {_view(level)} WHERE (\n"
     try:
         if not before:
             _check_select(connection, text)
             return _selected(connection, text, limit)
         _check_select(connection, f"{before}{text}\n)")
         connection.execute(f"{before}{text}\n) LIMIT 0")
-        return _matches(connection, _view(place), text, limit)
+        return _matches(connection, _view(level), text, limit)
     except duckdb.Error as error:
-        raise TracerError(_explained(error, text, len(before), place.level)) from None
+        raise _explained(error, text, len(before), level) from None
 
 
-def _view(place):
+def _view(level):
     """What a condition is asked of."""
-    return "events" if place.level == "events" else "paths"
+    return "events" if level == "events" else "paths"
 
 
-def _connection(place):
+def connection(place):
     """DuckDB with the recording's views and no way out."""
     import duckdb
 
@@ -110,7 +134,7 @@ def _connection(place):
         "temp_directory": "",
         "autoinstall_known_extensions": False,
     }
-    connection = duckdb.connect(config=config | {"autoload_known_extensions": False})
+    opened = duckdb.connect(config=config | {"autoload_known_extensions": False})
     for name, value in (
         ("python_enable_replacements", "false"),
         ("preserve_insertion_order", "false"),
@@ -118,16 +142,16 @@ def _connection(place):
         ("allowed_directories", f"[{parquet.literal(str(place.path.resolve()) + '/')}]"),
         ("enable_external_access", "false"),
     ):
-        connection.execute(f"SET {name} = {value}")
+        opened.execute(f"SET {name} = {value}")
     try:
         for statement in views.statements(place):
-            connection.execute(statement)
+            opened.execute(statement)
     except duckdb.Error as error:
         raise TracerError(
             f"{place.path}: its parts are not those of a recording: {_said(error)[0]}"
         ) from None
-    connection.execute("SET lock_configuration = true")
-    return connection
+    opened.execute("SET lock_configuration = true")
+    return opened
 
 
 def _is_select(text):
@@ -236,13 +260,13 @@ def _said(error):
 
 
 def _explained(error, text, before, level):
-    """One line: what is wrong with a query, where, and the columns there are, the nearest first.
+    """The QueryError: what is wrong with a query, where, and the columns there are, the nearest first.
 
     before: how many characters stand before the text in what DuckDB was asked.
     """
     words, position, name = _said(error)
     if "memory" in words.lower():
-        return f"query: needs too much memory ({words}); ask for less"
+        return QueryError(f"query: needs too much memory ({words}); ask for less")
     if name is None and (found := re.search(r'"([^"]+)"', words)):
         name = found.group(1)
     names = views.names(level)
@@ -250,14 +274,15 @@ def _explained(error, text, before, level):
     near = f"; did you mean {' or '.join(nearest)}?" if nearest else ";"
     if level == "paths" and name in views.names("events"):
         near = "; this recording has paths only (--record-level events keeps more);"
-    return f"query: {words}{_place(text, position, before, name)}{near} columns: {', '.join(names)}"
+    at = _place(text, position, before, name)
+    where = "" if at is None else f", at character {at + 1}: {' '.join(text[at : at + 20].split())!r}"
+    line = f"query: {words}{where}{near} columns: {', '.join(names)}"
+    return QueryError(line, f"{words}{near}".rstrip(";"), at, names)
 
 
 def _place(text, position, before, name):
-    """Where in a query, in words: characters count from 1."""
+    """Which character of a query is meant, from 0; None where that cannot be said."""
     offset = -1 if position is None else position - before
     if not 0 <= offset < len(text):
         offset = text.find(name) if name else len(text) - 1
-    if offset < 0:
-        return ""
-    return f", at character {offset + 1}: {' '.join(text[offset : offset + 20].split())!r}"
+    return offset if offset >= 0 else None

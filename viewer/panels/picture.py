@@ -7,8 +7,9 @@ from viewer.panels.panel import Panel
 TEMPLATE = """
 <section class="panel picture" :aria-label="w.picture">
   <castray-picture :rgb="rgb" :width="picture.width" :height="picture.height" :x="picture.x" :y="picture.y"
-    :exposure="exposure" :label="w.picture_label" :words="w"
+    :exposure="exposure" :label="w.picture_label" :words="w" :overlay="picture.overlay" :overlay-values="overlay_values"
     :style="{'--aspect': picture.width / picture.height}" @pick="trigger('pick', $event)"></castray-picture>
+  <castray-legend v-if="picture.overlay" :overlay="picture.overlay" :words="w" @close="trigger('uncover')"></castray-legend>
   <div class="row">
     <label>x <input type="number" inputmode="numeric" min="0" :max="picture.width - 1" data-testid="pixel-x"
       :value="picture.x" :aria-label="w.pixel_x" :title="w.pixel_x"
@@ -16,7 +17,11 @@ TEMPLATE = """
     <label>y <input type="number" inputmode="numeric" min="0" :max="picture.height - 1" data-testid="pixel-y"
       :value="picture.y" :aria-label="w.pixel_y" :title="w.pixel_y"
       @change="trigger('pick', [picture.x, $event.target.value])"></label>
-    <span class="grow"></span><span>{{ w.size }} {{ picture.width }}×{{ picture.height }}</span>
+    <span class="grow"></span>
+    <button class="small" data-testid="pixel-back" :disabled="!picture.behind" :aria-label="w.pixel_back" :title="w.pixel_back"
+      @click="trigger('back', [-1])"><castray-icon name="back"/></button>
+    <button class="small" data-testid="pixel-forward" :disabled="!picture.ahead" :aria-label="w.pixel_forward" :title="w.pixel_forward"
+      @click="trigger('back', [1])"><castray-icon name="forward"/></button>
   </div>
   <div class="row" :title="w.pixel_value"><span>RGB</span><span class="grow"></span>
     <output class="rgb" data-testid="pixel-value" :data-exact="JSON.stringify(picture.exact)">{{ picture.value }}</output>
@@ -30,7 +35,7 @@ TEMPLATE = """
 
 
 def show(session, say):
-    """The picked pixel and its value."""
+    """The picked pixel and its value, and what lies over the picture."""
     cursor, record = session.cursor, session.record
     return {
         "width": session.settings.width,
@@ -39,6 +44,9 @@ def show(session, say):
         "y": cursor.y,
         "value": several(record.value),
         "exact": [number(v) for v in record.value],
+        "behind": session.history.behind,
+        "ahead": session.history.ahead,
+        "overlay": session.overlay and session.overlay.legend(say),
     }
 
 

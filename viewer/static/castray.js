@@ -3,7 +3,7 @@
   const { inject, onBeforeUnmount, onMounted, ref, watch } = window.Vue;
   const self = Math.random().toString(36).slice(2) + Date.now().toString(36);
   const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
-  const short = (v) => (Number.isFinite(v) ? String(Number(v.toPrecision(5))) : String(v));
+  const short = (v) => (Number.isFinite(v) ? String(Number(v.toPrecision(5))) : Number.isNaN(v) ? "–" : v > 0 ? "∞" : "-∞");
 
   // linear radiance (float32 bytes from the server) as an image the canvas can draw
   function develop(bytes, width, height, exposure) {
@@ -28,13 +28,14 @@
   }
 
   const Picture = {
-    props: ["rgb", "width", "height", "x", "y", "exposure", "label", "words"],
+    props: ["rgb", "width", "height", "x", "y", "exposure", "label", "words", "overlay", "overlayValues"],
     emits: ["pick"],
     setup(props, { emit }) {
       const canvas = ref(null), hover = ref("");
       const view = { scale: 1, left: 0, top: 0 };
       let linear = null, drag = null;
-      const sheet = document.createElement("canvas");
+      const sheet = document.createElement("canvas"), cover = document.createElement("canvas");
+      let covering = null; // the numbers laid over the picture
 
       const unit = (box) => Math.min(box.width / props.width, box.height / props.height) * view.scale;
       const origin = (box) => [
@@ -50,7 +51,7 @@
         g.setTransform(dots, 0, 0, dots, 0, 0);
         g.clearRect(0, 0, box.width, box.height);
         g.imageSmoothingEnabled = u < 1;
-        if (linear) g.drawImage(sheet, left, top, u * props.width, u * props.height);
+        for (const layer of [linear && sheet, covering && cover]) if (layer) g.drawImage(layer, left, top, u * props.width, u * props.height);
         const size = Math.max(u, 7), cx = left + u * (props.x + 0.5), cy = top + u * (props.y + 0.5);
         for (const [style, wide] of [["#000", 3.5], ["#fff", 1.5]]) {
           Object.assign(g, { strokeStyle: style, lineWidth: wide });
@@ -69,6 +70,15 @@
         linear = values;
         Object.assign(sheet, { width: props.width, height: props.height });
         sheet.getContext("2d").putImageData(image, 0, 0);
+        draw();
+      }
+      function recover() {
+        const bytes = props.overlayValues, there = props.overlay && bytes && bytes.byteLength === 4 * props.width * props.height;
+        covering = there ? new Float32Array(bytes.slice().buffer) : null;
+        if (covering) {
+          Object.assign(cover, { width: props.width, height: props.height });
+          cover.getContext("2d").putImageData(window.castray.coloured(covering, props.width, props.height, props.overlay), 0, 0);
+        }
         draw();
       }
       function zoom(factor, event) {
@@ -99,7 +109,8 @@
         const at = pixelAt(event);
         if (!at || !linear) { hover.value = ""; return; }
         const i = 3 * (at[1] * props.width + at[0]);
-        hover.value = `(${at[0]}, ${at[1]})  ${[0, 1, 2].map((k) => short(linear[i + k])).join("  ")}`;
+        hover.value = covering ? `(${at[0]}, ${at[1]})  ${props.overlay.title}: ${short(covering[i / 3])}`
+          : `(${at[0]}, ${at[1]})  ${[0, 1, 2].map((k) => short(linear[i + k])).join("  ")}`;
       }
       function up(event) {
         const at = drag && !drag.moved && event.button === 0 && pixelAt(event);
@@ -107,9 +118,10 @@
         if (at) emit("pick", at);
       }
       const sizes = new ResizeObserver(draw);
-      onMounted(() => { sizes.observe(canvas.value); redevelop(); draw(); });
+      onMounted(() => { sizes.observe(canvas.value); redevelop(); recover(); });
       onBeforeUnmount(() => sizes.disconnect());
       watch(() => [props.rgb, props.width, props.height, props.exposure], redevelop);
+      watch(() => [props.overlay && JSON.stringify(props.overlay), props.overlayValues], recover);
       watch(() => [props.x, props.y], draw);
       const leave = () => { hover.value = ""; };
       const wheel = (event) => zoom(1.25 ** (event.deltaY < 0 ? 1 : -1), event);
@@ -212,6 +224,7 @@
 
   const KEYS = { ArrowLeft: "previous", ArrowRight: "next", ArrowUp: "up", ArrowDown: "down", Home: "first", End: "last" };
   const CHOSEN = "castray-language"; // where the browser keeps it
+  const CALLS = { "[": ["back", [-1]], "]": ["back", [1]], n: ["find_step", [1]], p: ["find_step", [-1]] };
   const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
   // One tab at a time: this one asks to lead, follows the link in its address, and hears the keys.
@@ -236,6 +249,7 @@
         else if (KEYS[event.key]) call = ["go", [KEYS[event.key]]];
         else if (event.key === " " && !onButton) call = ["play", []];
         else if (event.key === "?") trame.state.set("tab", "help");
+        else if (CALLS[event.key]) call = CALLS[event.key];
         if (call) { event.preventDefault(); event.stopPropagation(); trame.trigger(...call); }
       }
       const hush = (event) => { if (!typing(event)) event.stopPropagation(); }; // vtk.js binds w, s and r
@@ -297,6 +311,7 @@
   };
 
   const SHAPES = {
+    back: "M15 5l-7 7 7 7", forward: "M9 5l7 7-7 7", close: "M6 6l12 12M18 6 6 18",
     first: "M6 5v14M19 5 9 12l10 7z", previous: "M17 5 7 12l10 7z", play: "M7 5l12 7-12 7z", pause: "M8 5v14M16 5v14",
     next: "M7 5l10 7-10 7z", last: "M18 5v14M5 5l10 7-10 7z", up: "M5 15l7-7 7 7", down: "M5 9l7 7 7-7", home: "M4 11l8-7 8 7v9h-5v-6h-6v6H4z",
     link: "M10 14a4 4 0 0 0 6 0l3-3a4 4 0 0 0-6-6l-1 1M14 10a4 4 0 0 0-6 0l-3 3a4 4 0 0 0 6 6l1-1",
@@ -308,8 +323,11 @@
   };
 
   window.castray = {
+    fitted, short, clamp,
     install(app) {
       const parts = { CastrayPicture: Picture, CastrayBars: Bars, CastrayLabels: Labels, CastrayTab: Tab, CastrayIcon: Icon, CastrayKnob: Knob };
+      // scripts arrive in any order: the others left word of how their parts are made
+      for (const make of window.castrayParts || []) Object.assign(parts, make(this));
       for (const [name, part] of Object.entries(parts)) app.component(name, part);
     },
   };
