@@ -96,6 +96,8 @@ class FewKernel:
             hand_on(some, rays, again)
         return t, partial(self._numbers, t, lanes, of_triangle, again, exact)
 
+    # A ray along a plane has no distance to it: inf or NaN, which no comparison below takes for a hit.
+    @np.errstate(divide="ignore", invalid="ignore", over="ignore")
     def _met(self, o, d, source, target):
         """Distance (N,) to the nearest triangle, inf where there is none; pairs of a triangle and the
         distances (N,) at which it is met; and whether any of that is in doubt, (N,)."""
