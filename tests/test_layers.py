@@ -39,6 +39,7 @@ FLOORS = {
     "tracer.scene_file": 4,
     "tracer.integrator": 4,
     "tracer.engine": 5,
+    "tracer.what_if": 6,
     "tracer.trace": 6,
     "tracer.doctor": 7,
     "tracer.learner": 7,

@@ -3,13 +3,15 @@
 from dataclasses import dataclass, field, fields
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
+from tracer import what_if
 from tracer.scene_file.change import parse as read_changes
 from tracer.scene_file.change import plain, written
 from tracer.settings import Settings, TracerError
 
 PLACE = ("x", "y", "path", "event")
 LONGEST = 4096
-BETWEEN = ";"  # two changes
+OTHERS = ("set", "what_if")  # several texts each
+BETWEEN = ";"  # two of them
 DEFAULTS = {f.name: f.default for f in fields(Settings)}
 TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
 
@@ -17,12 +19,13 @@ TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
 @dataclass(frozen=True)
 class Link:
     """What a link says. place: x, y, path, event, or None where it names no pixel. changes: of the scene's
-    words, {key: value}."""
+    words, {key: value}; what_if: suppositions about the path, {(depth, kind): value}."""
 
     scene: str
     settings: Settings
     place: tuple | None = None
     changes: dict = field(default_factory=dict)
+    what_if: dict = field(default_factory=dict)
 
     def write(self):
         """The part after the # of an address; options that have their default are left out."""
@@ -30,6 +33,8 @@ class Link:
         place = dict(zip(PLACE, self.place, strict=True)) if self.place else {}
         if self.changes:
             said["set"] = BETWEEN.join(written(self.changes))
+        if self.what_if:
+            place["what_if"] = BETWEEN.join(what_if.written(self.what_if))
         return urlencode({"scene": self.scene, **said, **place}, quote_via=quote)
 
 
@@ -50,16 +55,21 @@ def parse(text):
     words = dict(pairs)
     if len(words) != len(pairs):
         raise TracerError("link: says the same thing twice")
-    unknown = sorted(words.keys() - {"scene", "set", *PLACE, *DEFAULTS})
+    unknown = sorted(words.keys() - {"scene", *OTHERS, *PLACE, *DEFAULTS})
     if unknown:
         raise TracerError(
-            f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS, 'set'))}"
+            f"link: {unknown[0]!r} is not known; it may say scene, {', '.join((*PLACE, *DEFAULTS, *OTHERS))}"
         )
     if not words.get("scene"):
         raise TracerError("link: names no scene")
     settings = Settings(**{k: _setting(k, words[k]) for k in DEFAULTS.keys() & words.keys()})
     changes = plain(read_changes(words["set"].split(BETWEEN))) if "set" in words else {}
-    return Link(words["scene"], settings, _place(words), changes)
+    place, supposed = _place(words), {}
+    if "what_if" in words:
+        if place is None:
+            raise TracerError("link: what_if without x and y of the pixel")
+        supposed = what_if.parse(words["what_if"].split(BETWEEN))
+    return Link(words["scene"], settings, place, changes, supposed)
 
 
 def _setting(name, text):

@@ -4,15 +4,16 @@ import shlex
 from dataclasses import fields
 
 import tracer
+from tracer import what_if
 from tracer.scene_file.change import written
 from tracer.settings import Settings
 from viewer.link import Link
 
 
-def inspect_command(scene, settings, place, changes=None):
+def inspect_command(scene, settings, place, changes=None, supposed=None):
     """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for.
 
-    changes: of the scene's words, {key: value}.
+    changes: of the scene's words, {key: value}; supposed: of the path, {(depth, kind): value}.
     """
     x, y, sample, _ = place
     words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y} --sample {sample}"]
@@ -23,6 +24,7 @@ def inspect_command(scene, settings, place, changes=None):
             option = f.name.replace("_", "-")
             words.append(f"--no-{option}" if value is False else f"--{option} {value}")
     words += [f"--set {shlex.quote(text)}" for text in written(changes or {})]
+    words += [f"--what-if {text}" for text in what_if.written(supposed or {})]
     return " ".join(words)
 
 

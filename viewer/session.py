@@ -1,19 +1,31 @@
 """What the viewer knows: a scene, its settings, the picked pixel's paths and the place in them. No web."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 import tracer
 from lessons.zoo import planted
 from tracer.scene_file.change import changed
+from tracer.what_if import supposed
 from viewer.cursor import Cursor
 from viewer.history import History
 from viewer.link import Link
 from viewer.numerals import luminance
 from viewer.replay import inspect_command
 
-KEPT = ("scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history")
+KEPT = (
+    "scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history", "supposing"
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Supposing:
+    """What is supposed of one path, {(depth, kind): value}, and the path as it would be."""
+
+    of: object  # the path as it is
+    what: dict
+    path: object
 
 
 class Session:
@@ -36,6 +48,7 @@ class Session:
         self.spp_done, self.picture = 0, None
         self.recording, self.overlay = None, None
         self.record, self.cursor, self.history = None, None, History()
+        self.supposing = None
 
     def close(self):
         """Forget what the panels keep of the scene: desk has it by their names."""
@@ -63,6 +76,7 @@ class Session:
             if renewed:
                 self.adopt(scene, settings)
             self.stand(link.place)
+            self.suppose(link.what_if)
         except (tracer.TracerError, IndexError):
             vars(self).update(kept)
             raise
@@ -71,8 +85,7 @@ class Session:
     def alter(self, scene, settings):
         """Turn to the same scene said differently, or to other settings, and stay as near as can be to the
         place. Raises TracerError, with nothing changed, where that cannot be."""
-        kept = {name: getattr(self, name) for name in KEPT}
-        before = self.cursor
+        kept, before = {name: getattr(self, name) for name in KEPT}, self.cursor
         try:
             self.adopt(scene, settings)
             self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
@@ -95,6 +108,26 @@ class Session:
         event = most_giving(self.path) if event is None else event
         self.cursor = Cursor(x, y, self.cursor.lengths, path, event)
 
+    def suppose(self, what):
+        """Suppose {(depth, kind): value} of the path, nothing if it is empty. Raises TracerError."""
+        if not what:
+            self.supposing = None
+            return
+        c, steps = self.cursor, planted(self.settings)
+        record = supposed(self.scene, self.settings, c.x, c.y, self.path.sample, what, steps)
+        self.supposing = Supposing(self.path, dict(what), record.paths[0])
+
+    @property
+    def supposition(self):
+        """The Supposing of the path that the reader stands on, if there is one."""
+        there = self.supposing
+        return there if there is not None and there.of is self.path else None
+
+    @property
+    def suppositions(self):
+        """What is supposed of this path, {(depth, kind): value}."""
+        return self.supposition.what if self.supposition else {}
+
     @property
     def path(self):
         """The recorded path the reader stands on."""
@@ -115,13 +148,20 @@ class Session:
         """The moment as a link, without a key."""
         c = self.cursor
         place = (c.x, c.y, c.path, c.event) if c else None
-        return Link(self.scene.name, self._asked_settings(), place, self.scene.definition.changes)
+        return Link(
+            self.scene.name,
+            self._asked_settings(),
+            place,
+            self.scene.definition.changes,
+            self.suppositions if c else {},
+        )
 
     @property
     def command(self):
         """`castray inspect` of the path, in words."""
         place = self.cursor.x, self.cursor.y, self.path.sample, self.cursor.event
-        return inspect_command(self.scene.name, self.settings, place, self.scene.definition.changes)
+        changes = self.scene.definition.changes
+        return inspect_command(self.scene.name, self.settings, place, changes, self.suppositions)
 
     def _asked_settings(self):
         """The settings, the size left out where it is the scene's own."""

@@ -24,6 +24,7 @@ COLOURS = {
     "ahead": (0.60, 0.66, 0.76),
     "lit": (1.0, 0.86, 0.35),
     "blocked": (1.0, 0.42, 0.38),
+    "what_if": (0.89, 0.42, 1.0),
     "idle": (0.55, 0.58, 0.64),
     "here": (1.0, 1.0, 1.0),
     "n": (0.45, 0.90, 0.53),
@@ -180,15 +181,19 @@ class Stage:
         eye.SetViewUp(*self.camera["viewUp"])
         eye.SetViewAngle(VIEW_ANGLE)
 
-    def draw(self, record, cursor, level):
-        """Show the pixel's paths and the current event; level says what changed."""
+    def draw(self, record, cursor, level, supposed=None, word=""):
+        """Show the pixel's paths and the current event; level says what changed. supposed: the selected path
+        as it would be, drawn beside it and marked by the word."""
         path = record.paths[cursor.path]
         drawn = self.strokes.event(path, cursor.event)
         if level != "event":
             drawn |= self.strokes.path(path) | self.strokes.others(record.paths, cursor.path)
+            drawn |= self.strokes.what_if(supposed)
         for name, (points, cells) in drawn.items():
             self.layers[name].show(points, cells)
         self.labels = self.strokes.labels(path, cursor.event)
+        if supposed is not None:
+            self.labels.append({"text": word, "layer": "what_if", "at": self.strokes.parting(path, supposed)})
 
 
 def viewpoint(scene, low, high):

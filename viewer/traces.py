@@ -45,6 +45,29 @@ class Strokes:
                 parts["idle"].append(solids.dashes(p, q, 0.7 * self.thin, 3 * self.thin))
         return {name: solids.merge(*some) for name, some in parts.items()}
 
+    def what_if(self, path):
+        """A path that is only supposed, dashed, with the lamps it would see; nothing for None."""
+        if path is None:
+            return {"what_if": solids.EMPTY}
+        line, dash = vertices(path, self.size), 5 * self.thick
+        parts = [
+            solids.dashes(a, b, 0.9 * self.thick, dash) for a, b in zip(line[:-1], line[1:], strict=True)
+        ]
+        for hit, sample in light_samples(path):
+            if light_outcome(sample) == "lit":
+                p, q = np.asarray(hit["p"], float), np.asarray(sample["q"], float)
+                parts += [
+                    solids.dashes(p, q, 0.5 * self.thin, 3 * self.thick),
+                    solids.balls(q, 2.5 * self.thin),
+                ]
+        return {"what_if": solids.merge(*parts, solids.balls(line[1:], 1.8 * self.thick))}
+
+    def parting(self, path, other):
+        """A place on another path where it has left this one; its last place where it never does."""
+        here, there = vertices(path, self.size), vertices(other, self.size)
+        apart = [k for k, place in enumerate(there) if k >= len(here) or not np.allclose(place, here[k])]
+        return (there[apart[0] - 1 : apart[0] + 1].mean(axis=0) if apart else there[-1]).tolist()
+
     def event(self, path, index):
         """The way walked so far, the way ahead, and the vectors of the current event."""
         line, reached = vertices(path, self.size), vertices_until(path, index)

@@ -77,7 +77,9 @@ class Window:
         """Show again what depends on a level or on what follows from it."""
         changed = LEVELS[LEVELS.index(level) :]
         session, cursor = self.session, self.session.cursor
-        self.stage.draw(session.record, cursor, level)
+        there = session.supposition
+        would = (there.path, self.say("what_if.label")) if there else ()
+        self.stage.draw(session.record, cursor, level, *would)
         self._push_stage()
         for panel in all_panels():
             if panel.show and panel.level in changed:
@@ -87,6 +89,7 @@ class Window:
                 "path_index": cursor.path,
                 "event_index": cursor.event,
                 "labels": self.stage.labels,
+                "supposing": there is not None,
                 "link": session.link.write(),
                 "header": self._header(),
             }
