@@ -1,4 +1,4 @@
-"""What if one path had gone otherwise: another direction at a bounce, another point on the lamp, another fate.
+"""What if one path had gone otherwise: another direction at a bounce, another point on a lamp, another fate.
 
 A supposition is written DEPTH.KIND=VALUE, depth 0 at the first hit:
 
@@ -82,7 +82,7 @@ def supposed(scene, settings, x, y, sample, suppositions, steps=RIGHT):
     if missed:
         depth, kind = missed[0]
         raise TracerError(
-            f"what_if: {depth}.{kind}: the path does no such thing at depth {depth}, or a mirror leaves no choice"
+            f"what_if: {depth}.{kind}: the path does no such thing there, or a mirror leaves no choice"
         )
     return record
 

@@ -16,15 +16,16 @@ from viewer.session import Session
 from viewer.words import Speaker
 
 
-def serve(scene, settings, port=None, open_browser=True, start=None, recording=None):
+def serve(scene, settings, port=None, open_browser=True, start=None, recording=None, what_if=None):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
-    start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of. TracerError
-    where port or place will not do.
+    start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of; what_if:
+    suppositions about the path there. TracerError where port or place will not do.
     """
     session = Session(scene, settings, Scenes(scene).find, recording)
     try:
         session.stand(start)
+        session.suppose(what_if or {})
     except IndexError as error:
         raise TracerError(f"link: {error}: there is no such place") from None
     _run(session, port, open_browser)
@@ -34,7 +35,7 @@ def serve_link(text, port=None, open_browser=True):
     """Open the viewer where a link points."""
     asked = links.parse(text)
     scene = changed(Scenes().find(asked.scene), asked.changes)
-    serve(scene, asked.settings, port, open_browser, asked.place)
+    serve(scene, asked.settings, port, open_browser, asked.place, what_if=asked.what_if)
 
 
 class Scenes:

@@ -1,6 +1,7 @@
 """Change and see, in a browser: what is turned shows at once, and is what the command says with --set."""
 
 import json
+import shlex
 
 import pytest
 from suite import castray
@@ -76,8 +77,6 @@ def shown(page, text):
 
 def inspected(page):
     """What the command that the panel shows prints."""
-    import shlex
-
     words = shlex.split(page.get_by_test_id("change-command").inner_text())
     at = words.index("--sample")
     done = castray(*words[1:at], *words[at + 2 :], "--json")
@@ -147,3 +146,76 @@ def test_the_panel_speaks_chinese(page):
     assert Speaker("zh")("change.albedo", name="white") in page.get_by_test_id("change").inner_text()
     page.get_by_test_id("language").select_option("en")
     page.wait_for_selector("html[lang=en]")
+
+
+def at_event(page, kind):
+    """Stand at the first event of that kind of the selected path; its depth."""
+    there = truth(page)
+    events = there["record"]["samples"][there["cursor"]["path"]]["events"]
+    event = next(e for e in events if e["kind"] == kind)
+    page.get_by_test_id(f"mark-{event['step']}").click()
+    page.get_by_test_id("tab-what_if").click()
+    return event["depth"]
+
+
+def would_be(page):
+    """What the command that the panel shows prints of the path."""
+    command = page.get_by_test_id("what-if-command").inner_text()
+    done = castray(*shlex.split(command)[1:], "--json")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)["samples"][0]
+
+
+def test_a_supposed_path_is_what_the_command_says_and_goes_with_the_link(page):
+    depth = at_event(page, "light")
+    turn(page, "suppose", f"{depth}.light.1", "0.9")
+    linked(page, f"what_if={depth}.light=")
+    at_event(page, "bounce")
+    turn(page, "suppose", f"{depth}.bounce.0", "25")
+    linked(page, f"{depth}.bounce=25,")
+    path = would_be(page)
+    assert json.loads(page.get_by_test_id("what-if-radiance").get_attribute("data-exact")) == path["radiance"]
+    assert page.locator("[data-testid=what-if-events] li").count() == len(path["events"])
+    assert page.get_by_test_id("legend-what-if").is_visible()
+    assert page.locator(".label.what_if").inner_text() == "what if"
+    link, record = truth(page)["link"], truth(page)["record"]
+    assert record["samples"][1]["radiance"] != path["radiance"]  # the path as it is stays what it is
+    page.get_by_test_id("what-if-reset").click()
+    linked(page, "what_if", there=False)
+    assert page.get_by_test_id("legend-what-if").count() == 0
+    page.evaluate("link => window.trame.trigger('open', [link])", link)
+    linked(page, f"{depth}.bounce=25,")
+    assert json.loads(page.get_by_test_id("what-if-radiance").get_attribute("data-exact")) == path["radiance"]
+
+
+def test_another_path_is_not_supposed_of_and_coming_back_finds_it(page):
+    depth = at_event(page, "bounce")
+    turn(page, "suppose", f"{depth}.bounce.1", "100")
+    linked(page, "what_if=")
+    page.keyboard.press("ArrowDown")
+    linked(page, "what_if", there=False)
+    page.keyboard.press("ArrowUp")
+    linked(page, "what_if=")
+    page.get_by_test_id(f"unsuppose-{depth}.bounce").click()
+    linked(page, "what_if", there=False)
+
+
+def test_the_roulette_is_forced(page):
+    there = "scene=cornell_unit&width=32&height=32&spp=4&roulette=0.5&x=16&y=20&path=1&event=0"
+    page.evaluate("link => window.trame.trigger('open', [link])", there)
+    linked(page, "roulette=0.5&x=16")
+    depth = at_event(page, "roulette")
+    survived = page.get_by_test_id(f"suppose-{depth}.roulette").input_value() == "survive"
+    turn(page, "suppose", f"{depth}.roulette", "stop" if survived else "survive")
+    linked(page, f"{depth}.roulette=")
+    played = [e for e in would_be(page)["events"] if e["kind"] == "roulette" and e["depth"] == depth]
+    assert played[0]["survived"] != survived
+
+
+@pytest.mark.parametrize(
+    "asked", [["0.bounce.0", 20], ["9.light.1", 0.5], ["0.light.7", 0.5], ["0.light.1", 2], [{}, []]]
+)
+def test_what_a_page_may_not_suppose_changes_nothing(page, asked):
+    at_event(page, "light")
+    page.evaluate("asked => window.trame.trigger('suppose', asked)", asked)
+    assert "what_if" not in truth(page)["link"]

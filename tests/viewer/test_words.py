@@ -131,7 +131,10 @@ OFTEN = (
     "inspect cornell_unit --pixel 0 0 --sample 99", "render cornell_unit --bounces 3", "rendr", "render",
     "inspect cornell_unit", "render cornell_unit --jitter=5", "render a b", "diff no.exr no.exr",
     "render cornell_unit -o no/such/folder.npy", "view scene=nowhere", "view scene=furnace&bounces=3",
-    "view http://127.0.0.1/",
+    "view http://127.0.0.1/", "render cornell_unit --set white", "render cornell_unit --set whit.reflectance=1",
+    "render cornell_unit --set white.colour=1", "inspect cornell_unit --pixel 0 0 --sample 0 --what-if x",
+    "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 1.bounce=3",
+    "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 999.bounce=3,4",
 )  # fmt: skip
 BROKEN = (
     "[sensor]\ntype = 'x'",

@@ -5,10 +5,11 @@ import math
 import numpy as np
 
 import tracer
+from tracer.recorder import number
 from tracer.settings import TracerError
 from tracer.what_if import FATES, KINDS, parse, written
 from viewer.caption import caption
-from viewer.numerals import css, several
+from viewer.numerals import NOTHING, css, several
 from viewer.panels.panel import Panel
 from viewer.panels.timeline import GLYPHS
 from viewer.tuning import real_from
@@ -25,13 +26,10 @@ TEMPLATE = """
       <button :data-testid="'unsuppose-' + one.key" :aria-label="w.what_if_drop" :title="w.what_if_drop" @click="trigger('suppose_not', [one.key])">✕</button></div>
     <p><button data-testid="what-if-reset" @click="trigger('suppose_not')">{{ w.what_if_reset }}</button></p>
     <h2>{{ w.what_if_ledger }}</h2>
-    <table class="data sums"><thead><tr><th></th><th scope="col">{{ w.what_if_is }}</th><th scope="col">{{ w.what_if_would }}</th></tr></thead>
-      <tbody><tr v-for="row in what_if.ledger" :key="row.name"><th scope="row">{{ row.name }}</th>
-        <td class="number">{{ row.now }}</td><td class="number">{{ row.would }}</td></tr>
-      <tr class="total"><th scope="row">{{ w.ledger_sum }}</th><td class="number">{{ what_if.now }}</td>
-        <td class="number" data-testid="what-if-radiance" :data-exact="JSON.stringify(what_if.exact)">{{ what_if.would }}</td></tr>
-      <tr class="total"><th scope="row">{{ what_if.mean_name }}</th><td class="number">{{ what_if.pixel_now }}</td>
-        <td class="number" data-testid="what-if-pixel">{{ what_if.pixel_would }}</td></tr></tbody></table>
+    <table class="data sums both"><tbody v-for="row in what_if.ledger" :key="row.name" :class="{total: row.total}">
+      <tr><th scope="row" rowspan="2">{{ row.name }}</th><td class="dim">{{ w.what_if_is }}</td><td class="number">{{ row.now }}</td></tr>
+      <tr><td class="dim">{{ w.what_if_would }}</td><td class="number" :data-testid="'what-if-' + row.key" :data-exact="JSON.stringify(row.exact)">{{ row.would }}</td></tr>
+    </tbody></table>
     <h2>{{ w.what_if_path }}</h2>
     <ol class="would" data-testid="what-if-events"><li v-for="row in what_if.events" :key="row.step">
       <span class="kind" :class="row.kind"><i aria-hidden="true">{{ row.glyph }}</i> {{ row.name }}</span> <span class="dim">{{ row.text }}</span>
@@ -149,17 +147,8 @@ _KNOBS = {"bounce": _bounce_knobs, "light": _light_knobs, "roulette": _roulette_
 
 def _outcome(session, there, say):
     """The path as it would be: events, both ledgers, the pixel."""
-    radiances = [path.radiance for path in session.record.paths]
-    would = [there.path.radiance if path is there.of else path.radiance for path in session.record.paths]
-    pixel = [tracer.fold(np.stack(all_of_it, axis=1)) for all_of_it in (radiances, would)]
     return {
-        "ledger": _ledger(there, say),
-        "now": several(there.of.radiance),
-        "would": several(there.path.radiance),
-        "exact": [float(v) for v in there.path.radiance],
-        "mean_name": say("ledger.mean", n=len(radiances)),
-        "pixel_now": several(pixel[0]),
-        "pixel_would": several(pixel[1]),
+        "ledger": [*_ledger(there, say), *_totals(session, there, say)],
         "events": [_row(event, session.scene, say) for event in there.path.events],
         "command": session.command,
     }
@@ -171,12 +160,39 @@ def _ledger(there, say):
     for side, path in enumerate((there.of, there.path)):
         for event in path.events:
             if np.any(event.values.get("contribution", 0) != 0):
-                sums.setdefault((event.depth, event.kind.name), ["", ""])[side] = several(
+                sums.setdefault((event.depth, event.kind.name), [NOTHING, NOTHING])[side] = several(
                     event.values["contribution"]
                 )
     return [
-        {"name": say(f"ledger.{kind}", depth=depth), "now": both[0], "would": both[1]}
+        {
+            "key": f"{kind}-{depth}",
+            "name": say(f"ledger.{kind}", depth=depth),
+            "now": both[0],
+            "would": both[1],
+        }
         for (depth, kind), both in sorted(sums.items())
+    ]
+
+
+def _totals(session, there, say):
+    """The path's radiance and the pixel, as they are and as they would be."""
+    paths = session.record.paths
+    would = [there.path if path is there.of else path for path in paths]
+    pixel = [tracer.fold(np.stack([p.radiance for p in some], axis=1)) for some in (paths, would)]
+    sums = {
+        "radiance": (say("ui.ledger_sum"), there.of.radiance, there.path.radiance),
+        "pixel": (say("ledger.mean", n=len(paths)), *pixel),
+    }
+    return [
+        {
+            "key": key,
+            "name": name,
+            "now": several(now),
+            "would": several(then),
+            "exact": [number(v) for v in then],
+            "total": True,
+        }
+        for key, (name, now, then) in sums.items()
     ]
 
 
