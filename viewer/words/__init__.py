@@ -49,7 +49,7 @@ class Speaker:
         self.language = language or current()
         self.words = table(self.language)
 
-    def __call__(self, key, **values):
+    def __call__(self, key, /, **values):
         return self.words[key].format(**values)
 
     def optional(self, key, otherwise):
