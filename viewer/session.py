@@ -15,7 +15,8 @@ from viewer.numerals import luminance
 from viewer.replay import inspect_command
 
 KEPT = (
-    "scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history", "supposing"
+    "scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history",
+    "supposing",
 )  # fmt: skip
 
 
@@ -88,6 +89,7 @@ class Session:
         kept, before = {name: getattr(self, name) for name in KEPT}, self.cursor
         try:
             self.adopt(scene, settings)
+            self.history = kept["history"]
             self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
         except tracer.TracerError:
             vars(self).update(kept)
