@@ -36,7 +36,7 @@ def print_diagnosis(diagnosis, trace, console=None):
 def _print_first(finding, say, console):
     console.print(_head(finding, say))
     if finding.bug is not None:
-        console.print(Text(f"  {_bug_title(finding.bug, say)}", style="italic"))
+        console.print(Text(f"  {bug_title(finding.bug, say)}", style="italic"))
     table = Table(box=None, show_header=False, padding=(0, 0, 0, 2))
     for name, said in _said(finding, say):
         table.add_row(Text(say(f"doctor.{name}"), style="dim"), said)
@@ -46,7 +46,7 @@ def _print_first(finding, say, console):
 
 def _head(finding, say):
     head = Text(_bug(finding, say), style="bold red")
-    head.append(f"  {say('doctor.not_so', **_counted(finding, say))}", style="bold")
+    head.append(f"  {say('doctor.not_so', **counted(finding, say))}", style="bold")
     return head
 
 
@@ -58,7 +58,7 @@ def _bug(finding, say):
     )
 
 
-def _counted(finding, say):
+def counted(finding, say):
     title = say.optional(f"rule.{finding.rule}", finding.title)
     return {"title": title, "count": finding.count, "checked": finding.checked}
 
@@ -76,21 +76,21 @@ def _said(finding, say):
     if finding.p is not None:
         yield "chance", Text(say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}"))
     if finding.first is not None:
-        yield "first", Text(_place(finding.first, say))
+        yield "first", Text(place(finding.first, say))
         if finding.command:
             yield "see", Text(finding.command)
     if finding.lesson is not None:
         yield "lesson", Text(f"castray lesson {finding.lesson}")
 
 
-def _place(first, say):
+def place(first, say):
     """Where a finding shows first."""
     if first["depth"] is None:
         return say("doctor.place", **{name: first[name] for name in ("x", "y", "sample")})
     return say("doctor.place_event", **{**first, "kind": say(f"kind.{first['kind']}")})
 
 
-def _bug_title(bug, say):
+def bug_title(bug, say):
     from lessons.zoo import ZOO
 
     return say.optional(f"bug.{bug}", ZOO[bug].title) if bug in ZOO else bug
@@ -106,7 +106,7 @@ def _print_other(finding, say, console):
         if finding.explanation:
             console.print(Text(f"  {finding.explanation}"))
         return
-    said = say("doctor.follows", cause=finding.follows, **_counted(finding, say))
+    said = say("doctor.follows", cause=finding.follows, **counted(finding, say))
     console.print(Text(f"{finding.rule}  {said}", style="dim"))
 
 

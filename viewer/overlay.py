@@ -56,10 +56,11 @@ def mask(by, title, pixels, settings, **told):
     return Overlay(by, title, values, "mask", 0.0, 1.0, told=told)
 
 
-def scaled(by, title, values, log=False, share=False, **told):
-    """The Overlay of a heat map whose colours reach over the values; shares from 0 to 1."""
+def scaled(by, title, values, log=False, share=False, low=None, **told):
+    """The Overlay of a heat map whose colours reach over the values, or from `low`; shares from 0 to 1."""
     finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    least, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low = least if low is None else low
     if share:
         low, high = 0.0, 1.0
     elif log:
