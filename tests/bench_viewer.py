@@ -1,6 +1,8 @@
-"""How long a pick and a step take in the browser: from the mouse or key going down to the new picture drawn.
+"""How long a pick, a step and a turned knob take in the browser: from the input to what it changed, drawn.
 
-Prints medians and the slowest of 20 each. `python tests/bench_viewer.py [SCENE] [castray view options]`
+Of a pick and a step that is the 3D view, of a knob the first picture with the new scene, coarse as yet.
+Prints medians, 95 % points and the slowest of 20 each.
+`python tests/bench_viewer.py [SCENE] [castray view options]`
 """
 
 import statistics
@@ -12,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import viewers  # noqa: E402
 
 ROUNDS = 20
-LIMITS = {"pick": 250, "step": 100}
+LIMITS = {"pick": 250, "step": 100, "turn": 400}
 
 # In the page: how often the 3D canvas was drawn, what it shows as one number, where the reader stands.
 COUNT = """
@@ -94,8 +96,34 @@ def steps(page):
         yield timed(page, partial(page.keyboard.press, "ArrowRight" if forward else "ArrowLeft"))
 
 
+# The time from a knob's move until the first picture with the new scene has come and was drawn.
+TURN = """
+([key, value]) => new Promise((resolve) => {
+  const knob = document.querySelector(`[data-testid="${key}"]`), before = window.trame.state.get("rgb");
+  const began = performance.now();
+  knob.value = value;
+  knob.dispatchEvent(new Event("input"));
+  const look = () => {
+    const came = window.trame.state.get("rgb") !== before;
+    if (came) requestAnimationFrame(() => resolve(performance.now() - began));
+    else requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+})
+"""
+
+
+def turns(page):
+    """One time per move of the first knob of the scene; the finer pictures of each are waited for."""
+    page.get_by_test_id("tab-change").click()
+    knob = page.locator("input[type=range][data-testid^=change-]").first.get_attribute("data-testid")
+    for k in range(ROUNDS):
+        yield page.evaluate(TURN, [knob, 0.2 + 0.6 * (k * 7 % ROUNDS) / ROUNDS])
+        page.wait_for_selector("[data-testid=progress]", state="detached", timeout=120_000)
+
+
 def measure(chromium, words):
-    """{"pick": [...], "step": [...]} in milliseconds."""
+    """{"pick": [...], "step": [...], "turn": [...]} in milliseconds."""
     from playwright.sync_api import sync_playwright
 
     server = viewers.Server(*words)
@@ -109,7 +137,7 @@ def measure(chromium, words):
             page.wait_for_selector("[data-testid=progress]", state="detached", timeout=120_000)
             page.evaluate(WATCH)
             page.wait_for_timeout(500)
-            times = {"pick": list(picks(page)), "step": list(steps(page))}
+            times = {"pick": list(picks(page)), "step": list(steps(page)), "turn": list(turns(page))}
             browser.close()
     finally:
         server.stop()
@@ -123,8 +151,9 @@ def main():
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     times = measure(chromium, sys.argv[1:] or ["cornell_unit"])
     for name, values in times.items():
-        middle, slowest = statistics.median(values), max(values)
-        print(f"{name}: median {middle:.0f} ms, slowest {slowest:.0f} ms, limit {LIMITS[name]} ms")
+        middle, most = statistics.median(values), sorted(values)[-1 - len(values) // 20]
+        said = f"median {middle:.0f} ms, 95 % {most:.0f} ms, slowest {max(values):.0f} ms"
+        print(f"{name}: {said}, limit {LIMITS[name]} ms")
     return int(any(statistics.median(v) > LIMITS[k] for k, v in times.items()))
 
 
