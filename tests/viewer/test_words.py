@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import tracer
+from lessons import glossary
 from lessons.zoo import FAMILIES, ZOO
 from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
@@ -118,6 +119,25 @@ def test_every_law_and_every_bug_is_told_in_every_language(language):
     assert areas()["laws"][language].keys() == laws
     bugs = {f"{what}.{bug}" for bug in ZOO for what in ("bug", "symptom")}
     assert areas()["bugs"][language].keys() == bugs | {f"family.{name}" for name in FAMILIES}
+
+
+def english():
+    """What stands in English in the tables and beside what it explains, by key."""
+    said = {key: words for area in ("events", "page") for key, words in areas()[area]["en"].items()}
+    for kind in KINDS:
+        said[f"event.{kind.name}"] = kind.meaning
+        said |= {f"field.{kind.name}.{field.name}": field.meaning for field in kind.fields}
+    for rule in (*LAWS, *statistics.RULES):
+        said |= {f"rule.{rule.id}": rule.title, f"law.{rule.id}": rule.law}
+    for bug in ZOO.values():
+        said |= {f"bug.{bug.id}": bug.title, f"symptom.{bug.id}": bug.symptom}
+    return {key: re.sub(r"\{\w+\}", "", words) for key, words in said.items()}
+
+
+def test_chinese_words_are_those_of_the_lessons_glossary():
+    chinese = table("zh")
+    lacking = {key: glossary.missing(words, chinese[key]) for key, words in english().items()}
+    assert {key: terms for key, terms in lacking.items() if terms} == {}
 
 
 # Errors that users meet often, as the command line gives them.

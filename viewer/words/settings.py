@@ -6,7 +6,7 @@ WORDS = {
         "setting.height": "图像高度，以像素计（默认：依场景）",
         "setting.spp": "每像素的样本数",
         "setting.seed": "所有随机数的种子",
-        "setting.max_depth": "最长的路径：1 = 只看直接可见的发光，2 = 加上直接光照，-1 = 不限",
+        "setting.max_depth": "最长的路径：1 = 只看直接可见的自发光，2 = 加上直接光照，-1 = 不限",
         "setting.integrator": "用哪个循环",
         "setting.strategy": "path 怎样找到光源：两种方式加权，或只用一种",
         "setting.heuristic": "MIS 权重",
