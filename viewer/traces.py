@@ -57,16 +57,22 @@ class Strokes:
             if light_outcome(sample) == "lit":
                 p, q = np.asarray(hit["p"], float), np.asarray(sample["q"], float)
                 parts += [
-                    solids.dashes(p, q, 0.5 * self.thin, 3 * self.thick),
+                    solids.dashes(p, q, 1.1 * self.thin, 3 * self.thick),
                     solids.balls(q, 2.5 * self.thin),
                 ]
         return {"what_if": solids.merge(*parts, solids.balls(line[1:], 1.8 * self.thick))}
 
     def parting(self, path, other):
-        """A place on another path where it has left this one; its last place where it never does."""
+        """A place on another path where it has left this one, or else on its first light sample that fell
+        elsewhere; its last place where all is the same."""
         here, there = vertices(path, self.size), vertices(other, self.size)
         apart = [k for k, place in enumerate(there) if k >= len(here) or not np.allclose(place, here[k])]
-        return (there[apart[0] - 1 : apart[0] + 1].mean(axis=0) if apart else there[-1]).tolist()
+        if apart:
+            return there[apart[0] - 1 : apart[0] + 1].mean(axis=0).tolist()
+        for (hit, one), (_, was) in zip(light_samples(other), light_samples(path), strict=False):
+            if not np.allclose(one["q"], was["q"]):
+                return (0.5 * (np.asarray(hit["p"], float) + np.asarray(one["q"], float))).tolist()
+        return there[-1].tolist()
 
     def event(self, path, index):
         """The way walked so far, the way ahead, and the vectors of the current event."""

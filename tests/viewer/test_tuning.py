@@ -3,6 +3,7 @@
 import pytest
 
 import tracer
+from tracer import what_if
 from tracer.scene_file.change import changed, parse, written
 from viewer.link import parse as parse_link
 from viewer.session import Session
@@ -95,3 +96,20 @@ def test_a_change_that_cannot_be_leaves_everything_as_it_is(glass):
     with pytest.raises(tracer.TracerError):
         session.alter(glass, tuned(session.settings, "spp", 10**6))
     assert (session.scene, session.settings, session.record, session.cursor) == before
+
+
+def test_the_word_what_if_stands_where_the_supposed_path_has_left_the_other(glass):
+    from viewer.traces import Strokes, light_samples, vertices
+
+    session = Session(glass, tracer.Settings(width=16, height=16, spp=2, max_depth=4), tracer.load)
+    session.stand((5, 6, 0, 0))
+    strokes = Strokes(3.0)
+    session.suppose(what_if.parse(["0.light=0.5,0.9,0.1"]))
+    there = session.supposition.path
+    hit, sample = light_samples(there)[0]
+    assert strokes.parting(session.path, there) == pytest.approx((hit["p"] + sample["q"]) / 2, rel=1e-5)
+    session.suppose(what_if.parse(["0.bounce=10,10"]))
+    there = session.supposition.path
+    line = vertices(there, 3.0)
+    assert strokes.parting(session.path, there) == pytest.approx((line[1] + line[2]) / 2, rel=1e-5)
+    assert strokes.parting(session.path, session.path) == vertices(session.path, 3.0)[-1].tolist()
