@@ -7,8 +7,8 @@ import pytest
 
 import tracer
 from tracer.settings import TracerError
-from tracer.trace.asker import Asker
-from tracer.trace.query import answer, ask
+from tracer.trace.asker import Asker, ask
+from tracer.trace.query import answer
 
 SETTINGS = tracer.Settings(width=6, height=5, spp=3, max_depth=5)
 LONG = "SELECT count(*) FROM events a, events b, events c, events d, events e"

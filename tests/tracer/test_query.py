@@ -7,7 +7,7 @@ import pytest
 
 import tracer
 from lessons import zoo
-from tracer.trace import folder, query, views
+from tracer.trace import asker, folder, query, views
 from tracer.trace.breakpoints import BREAKPOINTS, condition
 
 SETTINGS = tracer.Settings(width=8, height=7, spp=6, max_depth=6)
@@ -25,7 +25,7 @@ def box(tmp_path_factory):
 
 
 def ask(path, text, limit=1000):
-    """As query.ask, in this process: quicker."""
+    """As asker.ask, in this process: quicker."""
     return query.answer(folder.whole(path), text, limit)
 
 
@@ -177,7 +177,7 @@ def test_what_only_duckdb_can_refuse_is_refused_too(box, tmp_path, monkeypatch):
 def test_a_bomb_ends(box, bomb):
     began = time.perf_counter()
     with pytest.raises(tracer.TracerError, match="took longer|too much memory|out of memory|query: "):
-        query.ask(box, bomb, seconds=4.0)
+        asker.ask(box, bomb, seconds=4.0)
     assert time.perf_counter() - began < 120
 
 
@@ -196,7 +196,7 @@ def test_a_bomb_ends(box, bomb):
 )
 def test_a_wrong_query_is_told_where_and_which_columns_there_are(box, text, said):
     with pytest.raises(tracer.TracerError) as refused:
-        query.ask(box, text) if not text else ask(box, text)
+        asker.ask(box, text) if not text else ask(box, text)
     line = str(refused.value)
     assert "\n" not in line and not [word for word in said if word not in line], line
 

@@ -8,7 +8,8 @@ import pytest
 
 import tracer
 from tracer.settings import TracerError
-from tracer.trace.query import QueryError, ask
+from tracer.trace.asker import ask
+from tracer.trace.query import QueryError
 from viewer import overlay
 from viewer.finding import maps, ranks, survey
 from viewer.finding.finder import SHOWN, Finder

@@ -1,4 +1,4 @@
-"""A recording that is asked many times: the process behind `query.ask`, kept from question to question."""
+"""Recordings are asked in a process of its own, which can be ended: once, or kept for the next question."""
 
 import multiprocessing
 import threading
@@ -7,6 +7,21 @@ import numpy as np
 
 from tracer.settings import TracerError
 from tracer.trace import folder, query
+
+
+def ask(path, text, limit=20, seconds=query.SECONDS):
+    """What the recording at `path` answers to a condition or a SELECT, as plain values.
+
+    A condition gives {"events", "paths", "pixels": how many match; "found": the first `limit` paths with
+    their first matching event; "mask": [x, y, paths] of each pixel with matches}. A SELECT gives {"columns",
+    "rows", "more": whether there were more than `limit`}. Raises TracerError: what is wrong, where, what
+    there is.
+    """
+    asker = Asker(path)
+    try:
+        return asker.ask(text, limit, seconds)
+    finally:
+        asker.close()
 
 
 class Asker:
@@ -22,7 +37,7 @@ class Asker:
         self._closed = False
 
     def ask(self, text, limit=20, seconds=query.SECONDS):
-        """As query.ask."""
+        """As ask, in the process that is kept."""
         query.check(text)
         return self._asked(("answer", text, limit), seconds)
 

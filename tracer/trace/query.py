@@ -2,18 +2,17 @@
 
 Four walls, each enough for most of it: the statement has to be one SELECT that calls no function that reads
 files; DuckDB may open the recording's own files only, its configuration is locked, no extension is loaded;
-memory is limited; and all of it happens in a process of its own, which is ended when its time is over (some
-functions of DuckDB neither count their memory nor listen).
+memory is limited; and all of it happens in a process of its own (see asker), which is ended when its time is
+over (some functions of DuckDB neither count their memory nor listen).
 """
 
 import json
-import multiprocessing
 import re
 from difflib import get_close_matches
 from importlib import import_module
 
 from tracer.settings import TracerError
-from tracer.trace import folder, parquet, views
+from tracer.trace import parquet, views
 
 SECONDS = 60.0
 MEMORY = 1 << 30  # bytes that DuckDB may use
@@ -40,35 +39,6 @@ class QueryError(TracerError):
         self.words, self.at, self.names = words or line, at, tuple(names)
 
 
-def ask(path, text, limit=20, seconds=SECONDS):
-    """What the recording at `path` answers to a condition or a SELECT, as plain values.
-
-    A condition gives {"events", "paths", "pixels": how many match; "found": the first `limit` paths with
-    their first matching event; "mask": [x, y, paths] of each pixel with matches}. A SELECT gives {"columns",
-    "rows", "more": whether there were more than `limit`}. Raises TracerError: what is wrong, where, what
-    there is.
-    """
-    place = folder.whole(path)
-    check(text)
-    context = multiprocessing.get_context("spawn")
-    ours, theirs = context.Pipe(duplex=False)
-    child = context.Process(target=_work, args=(theirs, place, text, limit), daemon=True)
-    child.start()
-    theirs.close()
-    try:
-        if not ours.poll(seconds):
-            raise TracerError(f"query: took longer than {seconds:g} seconds; ask for less")
-        good, answer = ours.recv()
-    except EOFError:
-        raise TracerError("query: ended without an answer (out of memory?); ask for less") from None
-    finally:
-        child.kill()
-        child.join()
-    if not good:
-        raise answer
-    return answer
-
-
 def check(text):
     """TracerError unless a text is short enough to be asked, and not empty."""
     if len(text) > LONGEST:
@@ -77,17 +47,6 @@ def check(text):
         raise TracerError(
             "query: is empty; give a condition, such as 'depth >= 2 AND pdf < 1e-4', or a SELECT"
         )
-
-
-def _work(line, place, text, limit):
-    """The child's life: one question."""
-    try:
-        limit_memory()
-        line.send((True, answer(place, text, limit)))
-    except TracerError as error:
-        line.send((False, error))
-    except MemoryError:
-        line.send((False, TOO_LARGE))
 
 
 def limit_memory():
@@ -100,12 +59,15 @@ def limit_memory():
 
 
 def answer(place, text, limit):
-    """As ask, in this process."""
+    """What the recording in the Folder `place` answers to a condition or a SELECT, in this process.
+
+    As asker.ask, which does it in another one.
+    """
     return answered(connection(place), place.level, text, limit)
 
 
 def answered(connection, level, text, limit):
-    """As ask, of a connection to a recording of that level."""
+    """As answer, of a connection to a recording of that level."""
     import duckdb
 
     before = "" if _is_select(text) else f"SELECT 1 FROM {_view(level)} WHERE (\n"

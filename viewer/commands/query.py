@@ -9,8 +9,9 @@ from cyclopts import Parameter
 from tracer.picture import check_path
 from tracer.settings import TracerError
 from tracer.trace import folder
+from tracer.trace.asker import ask
 from tracer.trace.breakpoints import BREAKPOINTS, condition
-from tracer.trace.query import SECONDS, ask
+from tracer.trace.query import SECONDS
 from viewer.link import Link
 from viewer.options import Json, Whole, print_json
 
