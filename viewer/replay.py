@@ -33,9 +33,3 @@ def view_command(scene, settings, place, changes=None):
     if scene not in tracer.built_in_scenes():
         return None
     return f"castray view {shlex.quote('#' + Link(scene, settings, place, changes or {}).write())}"
-
-
-def recording_command(folder, place):
-    """`castray view` of a recording at (x, y, sample, step); without a step at the start of the path."""
-    x, y, sample, step = place
-    return f"castray view {shlex.quote(f'{folder}#x={x}&y={y}&path={sample}&event={step or 0}')}"

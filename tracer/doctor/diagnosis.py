@@ -9,6 +9,7 @@ from tracer.doctor.evidence import Evidence
 from tracer.doctor.laws import LAWS
 from tracer.doctor.naming import named
 from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, Outcome, Verdict, applied
+from tracer.trace.folder import view_command
 
 # What breaks together: where the first of a group is broken, the others are too, by the same mistake.
 _TOGETHER = (
@@ -82,6 +83,15 @@ class Diagnosis:
         more = (replace(f, command=f.command and f"{f.command} {words}") for f in self.findings)
         return replace(self, findings=tuple(more))
 
+    def shown_in(self, folder):
+        """The same of a recording, each finding with the command that opens the viewer at its event."""
+        places = (f.first and [f.first[name] for name in ("x", "y", "sample", "step")] for f in self.findings)
+        more = (
+            replace(f, command=place and view_command(folder, place))
+            for f, place in zip(self.findings, places, strict=True)
+        )
+        return replace(self, findings=tuple(more))
+
     def explained_by(self, about):
         """The same, each finding with the lesson that explains its bug: about(bug id), a number or None."""
         told = (replace(f, lesson=about(f.bug) if f.bug else None) for f in self.findings)
@@ -111,17 +121,15 @@ def examine(trace):
     Memory beside the trace is bounded but for what distributions need: events are judged a range of paths
     at a time.
     """
-    single = [_Judged(rule) for rule in LAWS]
+    single, whole = [_Judged(rule) for rule in LAWS], Evidence(trace)
     for begin, end in _ranges(trace):
-        part = trace if end - begin == trace.size else trace.span(begin, end)
-        evidence = Evidence(part)
+        evidence = whole if end - begin == trace.size else Evidence(trace.span(begin, end))
         first = {kind: np.searchsorted(table.path, begin) for kind, table in trace.tables.items()}
         for judged in single:
             judged.add(applied(judged.rule, evidence), evidence, first.get(judged.rule.kind, begin))
-    evidence = Evidence(trace)
-    many = statistics.judged(evidence)
+    many = statistics.judged(whole)
     findings = [judged.finding for judged in single if judged.finding is not None]
-    findings += [_finding(evidence, verdict) for verdict in many if verdict.state == FIRED]
+    findings += [_finding(whole, verdict) for verdict in many if verdict.state == FIRED]
     return Diagnosis(_ranked(findings), (*(judged.verdict for judged in single), *many))
 
 

@@ -19,14 +19,16 @@ def assert_healthy(trace, scene=None):
     """
     found, folder = _read(trace, scene)
     diagnosis = examine(found)
-    if found.settings.bug:
+    if folder is not None:
+        diagnosis = diagnosis.shown_in(folder)
+    elif found.settings.bug:
         diagnosis = diagnosis.replayed_with(f"--bug {found.settings.bug}")
     judged = [verdict for verdict in diagnosis.rules if verdict.state != NOT_TESTABLE]
     if not judged:
         missing = sorted({verdict.missing for verdict in diagnosis.rules})
         raise AssertionError(f"no law could be held against the trace: {'; '.join(missing[:MOST])}")
     if diagnosis.findings:
-        raise AssertionError("\n".join(_said(diagnosis, len(judged), folder)))
+        raise AssertionError("\n".join(_said(diagnosis, len(judged))))
 
 
 def _read(trace, scene):
@@ -44,7 +46,7 @@ def _read(trace, scene):
     return read_trace(path, scene), path
 
 
-def _said(diagnosis, judged, folder):
+def _said(diagnosis, judged):
     """What is wrong, line by line, the first cause first."""
     causes = diagnosis.causes
     follow = len(diagnosis.findings) - len(causes)
@@ -59,7 +61,7 @@ def _said(diagnosis, judged, folder):
             yield f"  {finding.explanation}"
         if finding.first is not None:
             yield f"  first at {_place(finding.first)}"
-            yield f"  {_command(finding, folder)}"
+            yield f"  {finding.command}"
     if len(causes) > MOST:
         yield f"... and {', '.join(finding.rule for finding in causes[MOST:])}"
 
@@ -69,13 +71,6 @@ def _place(first):
         "" if first["kind"] is None else f", event {first['step']} ({first['kind']}, depth {first['depth']})"
     )
     return f"pixel ({first['x']}, {first['y']}), sample {first['sample']}{event}"
-
-
-def _command(finding, folder):
-    if folder is None:
-        return finding.command
-    x, y, sample, step = (finding.first[name] for name in ("x", "y", "sample", "step"))
-    return f"castray view '{folder}#x={x}&y={y}&path={sample}&event={step or 0}'"
 
 
 def _numbers(values):

@@ -10,6 +10,7 @@ A part is written as .partial, flushed to the disk and then renamed, so what has
 
 import json
 import os
+import shlex
 import shutil
 from dataclasses import dataclass
 from functools import cached_property
@@ -213,3 +214,9 @@ def flush(path):
         os.fsync(handle)
     finally:
         os.close(handle)
+
+
+def view_command(folder, place):
+    """`castray view` of a recording at (x, y, sample, step); without a step at the start of the path."""
+    x, y, sample, step = place
+    return f"castray view {shlex.quote(f'{folder}#x={x}&y={y}&path={sample}&event={step or 0}')}"

@@ -1,7 +1,6 @@
 """The command `castray doctor`."""
 
 import shlex
-from dataclasses import replace
 
 import tracer
 from tracer.scene_file.change import written
@@ -32,7 +31,7 @@ def doctor(
     trace = _recorded(what, scene, options) if recorded else _trace(what, scene, options)
     diagnosis = tracer.examine(trace).explained_by(about)
     if recorded:
-        diagnosis = _shown_by_viewer(diagnosis, what)
+        diagnosis = diagnosis.shown_in(what)
     elif trace.settings.bug:  # which the doctor does not know
         diagnosis = diagnosis.replayed_with(f"--bug {trace.settings.bug}")
     for text in written(trace.scene.definition.changes):
@@ -55,17 +54,6 @@ def _recorded(what, scene, options):
             f"{what}: a recording has its own scene and settings; leave out --scene and path options"
         )
     return recorded_trace(what, MOST_PATHS)
-
-
-def _shown_by_viewer(diagnosis, folder):
-    """The same, each finding with the command that opens the viewer at its event."""
-    from viewer.replay import recording_command
-
-    findings = []
-    for f in diagnosis.findings:
-        place = f.first and recording_command(folder, [f.first[k] for k in ("x", "y", "sample", "step")])
-        findings.append(replace(f, command=place))
-    return replace(diagnosis, findings=tuple(findings))
 
 
 def _trace(what, scene, options):

@@ -110,12 +110,12 @@ def _recorded(what, other, scene, options):
 
 
 def _side(what, scene):
+    from tracer.trace.folder import view_command
     from viewer.given import logged_trace, recorded_trace
     from viewer.recorded import is_recording
-    from viewer.replay import recording_command
 
     if what.lower().endswith(".jsonl"):
         return Side(what, logged_trace(what, scene), lambda place: [])
     if not is_recording(what):
         raise TracerError(f"twin: {what} is neither a recording's folder nor a log, FILE.jsonl")
-    return Side(what, recorded_trace(what), lambda place: [recording_command(what, place)])
+    return Side(what, recorded_trace(what), lambda place: [view_command(what, place)])
