@@ -45,20 +45,20 @@ def _print_first(finding, say, console):
 
 
 def _head(finding, say):
-    head = Text(_bug(finding, say), style="bold red")
+    head = Text(bugs(finding, say) or finding.rule, style="bold red")
     head.append(f"  {say('doctor.not_so', **counted(finding, say))}", style="bold")
     return head
 
 
-def _bug(finding, say):
-    if finding.bug is None:
-        return finding.rule
-    return (
-        say("doctor.or", bug=finding.bug, others=say.listed(*finding.alike)) if finding.alike else finding.bug
-    )
+def bugs(finding, say):
+    """The mistake that is named, with those that no trace tells from it; "" where none is."""
+    if finding.bug and finding.alike:
+        return say("doctor.or", bug=finding.bug, others=say.listed(*finding.alike))
+    return finding.bug or ""
 
 
 def counted(finding, say):
+    """A finding's law, and how often it is broken, as words take them."""
     title = say.optional(f"rule.{finding.rule}", finding.title)
     return {"title": title, "count": finding.count, "checked": finding.checked}
 
@@ -70,17 +70,17 @@ def _said(finding, say):
     for name in ("recorded", "right"):
         value = getattr(finding, name)
         if value is not None:
-            yield name, Text(f"{finding.what} = {_numbers(value)}")
+            yield name, Text(equation(finding.what, value))
     if finding.explanation:
         yield "why", Text(finding.explanation)
     if finding.p is not None:
-        yield "chance", Text(say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}"))
+        yield "chance", Text(chance(finding, say))
     if finding.first is not None:
         yield "first", Text(place(finding.first, say))
         if finding.command:
             yield "see", Text(finding.command)
     if finding.lesson is not None:
-        yield "lesson", Text(f"castray lesson {finding.lesson}")
+        yield "lesson", Text(lesson(finding))
 
 
 def place(first, say):
@@ -96,8 +96,19 @@ def bug_title(bug, say):
     return say.optional(f"bug.{bug}", ZOO[bug].title) if bug in ZOO else bug
 
 
-def _numbers(values):
-    return several([float("nan") if v is None else v for v in values])
+def equation(what, values):
+    """What a finding is about, with its numbers."""
+    return f"{what} = {several([float('nan') if v is None else v for v in values])}"
+
+
+def chance(finding, say):
+    """How rarely a right tracer does that, in words."""
+    return say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}")
+
+
+def lesson(finding):
+    """The command that explains a finding's mistake."""
+    return f"castray lesson {finding.lesson}"
 
 
 def _print_other(finding, say, console):

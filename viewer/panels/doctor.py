@@ -1,9 +1,8 @@
 """The doctor: which laws the picture's paths break, the first cause first, and the event that proves it."""
 
 from viewer import examining
-from viewer.doctor_report import bug_title, counted, place
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
 from viewer.examining import Chart, Examiner
-from viewer.numerals import several
 from viewer.panels.panel import Panel
 from viewer.worker import Worker
 
@@ -77,35 +76,26 @@ def _status(session, chart, say):
 def _cause(index, finding, chart, say):
     """A finding with a cause of its own, in full."""
     first = finding.first
-    bug = finding.bug and (
-        say("doctor.or", bug=finding.bug, others=say.listed(*finding.alike)) if finding.alike else finding.bug
-    )
-    name = bug_title(finding.bug, say) if finding.bug else say.optional(f"rule.{finding.rule}", finding.title)
+    said = counted(finding, say)
     both = finding.recorded is not None and finding.right is not None
     return {
         "index": index,
         "now": index == chart.now,
         "rule": finding.rule,
-        "bug": bug or "",
-        "name": name,
-        "law": say("doctor.not_so", **counted(finding, say)),
+        "bug": bugs(finding, say),
+        "name": bug_title(finding.bug, say) if finding.bug else said["title"],
+        "law": say("doctor.not_so", **said),
         "count": finding.count,
         "checked": finding.checked,
         "formula": finding.formula,
-        "recorded": _numbers(finding.what, finding.recorded) if both else "",
-        "right": _numbers(finding.what, finding.right) if both else "",
+        "recorded": equation(finding.what, finding.recorded) if both else "",
+        "right": equation(finding.what, finding.right) if both else "",
         "exact": {"recorded": finding.recorded, "right": finding.right},
         "why": finding.explanation,
-        "chance": ""
-        if finding.p is None
-        else say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}"),
+        "chance": "" if finding.p is None else chance(finding, say),
         "place": place(first, say) if first else "",
-        "lesson": f"castray lesson {finding.lesson}" if finding.lesson is not None else "",
+        "lesson": "" if finding.lesson is None else lesson(finding),
     }
-
-
-def _numbers(what, values):
-    return f"{what} = {several([float('nan') if v is None else v for v in values])}"
 
 
 def _following(index, finding, say):
