@@ -1,5 +1,6 @@
 """What the viewer knows: a scene, its settings, the picked pixel's paths and the place in them. No web."""
 
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -72,29 +73,32 @@ class Session:
             scene = changed(scene, link.changes)
         settings = link.settings.at_size_of(scene)
         renewed = scene is not self.scene or settings != self.settings
-        kept = {name: getattr(self, name) for name in KEPT}
-        try:
+        with self._unchanged_by_errors():
             if renewed:
                 self.adopt(scene, settings)
             self.stand(link.place)
             self.suppose(link.what_if)
-        except (tracer.TracerError, IndexError):
-            vars(self).update(kept)
-            raise
         return renewed
 
     def alter(self, scene, settings):
         """Turn to the same scene said differently, or to other settings, and stay as near as can be to the
         place. Raises TracerError, with nothing changed, where that cannot be."""
-        kept, before = {name: getattr(self, name) for name in KEPT}, self.cursor
-        try:
+        before, history = self.cursor, self.history
+        with self._unchanged_by_errors():
             self.adopt(scene, settings)
-            self.history = kept["history"]
+            self.history = history
             self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
-        except tracer.TracerError:
+        self.cursor = self.cursor.on(before.path).at(before.event)
+
+    @contextmanager
+    def _unchanged_by_errors(self):
+        """What is KEPT is again as it was where the block raises."""
+        kept = {name: getattr(self, name) for name in KEPT}
+        try:
+            yield
+        except (tracer.TracerError, IndexError):
             vars(self).update(kept)
             raise
-        self.cursor = self.cursor.on(before.path).at(before.event)
 
     def stand(self, place):
         """Go to (x, y, path, event), event None to where the path is given most; without a place, where the
