@@ -1,5 +1,7 @@
 """A lesson that runs: the numbers of its claim, the paths it speaks of, its texts with both filled in."""
 
+from collections import deque
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -8,6 +10,8 @@ import tracer
 from lessons.answer import right
 from lessons.words import PLACEHOLDER
 from lessons.zoo import planted
+from tracer.engine import waves
+from tracer.integrator.wave import Wave
 from tracer.settings import Settings, TracerError
 
 PLACE = ("x", "y", "path", "event")
@@ -44,6 +48,15 @@ class Run:
         if key not in self._records:
             self._records[key] = tracer.inspect(self.scene(at.scene), settings, x, y, steps=planted(settings))
         return self._records[key]
+
+    def wave(self, moment="start", **differently):
+        """The pixel of a moment, traced without a record and with some settings said differently, as a Wave
+        that is done: radiance (3, spp), rays, dropped."""
+        at, settings = self.lesson.moments[moment], replace(self.settings(moment), **differently)
+        x, y = np.full(settings.spp, at.x), np.full(settings.spp, at.y)
+        wave = Wave(x, y, np.arange(settings.spp), settings, planted(settings))
+        deque(waves.events(self.scene(at.scene), settings, wave), maxlen=0)
+        return wave
 
     def path(self, moment="start"):
         """The recorded path of a moment."""
