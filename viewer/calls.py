@@ -8,7 +8,7 @@ from viewer.cursor import MOVES
 from viewer.panels import all_panels
 from viewer.words import LANGUAGES
 
-OWN = "go pick back uncover path event play open take speak dismiss truth".split()
+OWN = "go pick back uncover path event at play open take speak dismiss truth".split()
 MOST_DIGITS = 9
 LONGEST_TAB = 64
 
@@ -75,6 +75,14 @@ class Calls:
         index = whole("event", index, self.session.cursor.lengths[self.session.cursor.path])
         self.window.pause()
         self.window.move(self.session.cursor.at(index))
+
+    def at(self, path, event):
+        """Go to an event of any path of the pixel."""
+        lengths = self.session.cursor.lengths
+        path = whole("path", path, len(lengths))
+        event = whole("event", event, lengths[path])
+        self.window.pause()
+        self.window.move(self.session.cursor.on(path).at(event))
 
     def play(self, *_):
         """Walk on by itself, or stop."""

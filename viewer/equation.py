@@ -1,10 +1,14 @@
-"""The formula of an event: in symbols, with this path's own numbers put in, and the result, as MathML."""
+"""The formula of an event: in symbols, with this path's own numbers put in, and the result, as MathML.
 
-from dataclasses import dataclass
-from functools import lru_cache
+Each factor knows the event that it came from, so that a click on it leads there.
+"""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tracer.recorder import number
+from viewer.mathml import fraction, mathml
 from viewer.numerals import several, short, tex
 from viewer.session import throughput
 
@@ -17,11 +21,13 @@ WORTH_SAYING = (
 
 @dataclass(frozen=True)
 class Factor:
-    """One symbol of a product. field: where the schema explains it."""
+    """One symbol of a product. field: where the schema explains it; came: the event that made it, None where
+    it is this one."""
 
     symbol: str
     field: str
     value: object
+    came: int | None = None
 
 
 @dataclass(frozen=True)
@@ -50,20 +56,57 @@ class Product:
 def formulas(path, index, settings, say):
     """Everything the equation panel shows for one event, ready to send."""
     event = path.events[index]
-    product = PRODUCTS.get(event.kind.name, lambda v, beta: None)(
-        event.values, throughput(path.events, index - 1)
-    )
-    if product is None:
-        plain = {"legend": [], "result": "", "differs": "", "weight": None}
-        return {"symbolic": _special(path, event), "rows": _sum_rows(path, event), **plain}
+    make = PRODUCTS.get(event.kind.name)
+    product = make and make(event.values, throughput(path.events, index - 1))
+    if not product:
+        return {
+            "symbolic": _special(path, event),
+            "rows": _sum_rows(path, event),
+            "legend": [_summand(e, say) for e in _giving(path)] if event.kind.name == "end" else [],
+            "result": "",
+            "differs": "",
+            "weight": None,
+        }
+    product = _traced(product, path, index)
+    factors = (*product.over, *product.under)
     return {
-        "symbolic": mathml(_symbolic(product)),
-        "rows": [{"channel": c, "math": mathml(_numeric(product, k))} for k, c in enumerate(CHANNELS)],
+        "symbolic": _symbolic(product),
+        "rows": [{"channel": c, "math": _numeric(product, k)} for k, c in enumerate(CHANNELS)],
         "result": several(product.recorded),
         "differs": "" if product.agrees else several(product.value),
-        "legend": [_explained(factor, event.kind, say) for factor in (*product.over, *product.under)],
+        "legend": [_explained(factor, path, event.kind, say) for factor in factors],
         "weight": _weight(event, settings, say),
     }
+
+
+def _traced(product, path, index):
+    """The product with the event that each factor came from."""
+
+    def sides(factors):
+        return tuple(replace(f, came=origin(path, index, f.field)) for f in factors)
+
+    return replace(product, over=sides(product.over), under=sides(product.under))
+
+
+def origin(path, index, field):
+    """Number of the event that a factor of an event's formula was made by; None where it is that one.
+
+    The throughput is that of the last bounce, roulette or way through glass; what the surface does follows
+    from where it was hit; the weight of a lamp that is met from the bounce that led there.
+    """
+    kind = path.events[index].kind.name
+    if field in ("beta", "beta_before"):
+        return _before(path, index, MAKERS, lambda e: e.kind.name != "hit" or _absorbed(e.values))
+    if field in ("f", "cos") and kind in ("light", "bounce"):
+        return _before(path, index, ("hit",))
+    if field == "w" and kind in ("hit", "escape"):
+        return _before(path, index, ("bounce",))
+    return None
+
+
+def _before(path, index, kinds, fits=lambda event: True):
+    earlier = (e.step for e in reversed(path.events[:index]) if e.kind.name in kinds and fits(e))
+    return next(earlier, None)
 
 
 def _hit(v, beta):
@@ -121,32 +164,62 @@ def _escape(v, beta):
     return Product("L += ", over, (), v["contribution"])
 
 
+MAKERS = ("camera", "hit", "bounce", "roulette")  # of a throughput
 PRODUCTS = {"hit": _hit, "light": _light, "bounce": _bounce, "roulette": _roulette, "escape": _escape}
 
 
 def _symbolic(product):
-    top = r" \, ".join(f.symbol for f in product.over)
-    return product.target + _fraction(top, r" \, ".join(f.symbol for f in product.under))
+    return fraction(product.target, _sides(product, lambda f: f.symbol), r"\,")
 
 
 def _numeric(product, channel):
-    top = r" \cdot ".join(_number(f, channel) for f in product.over)
-    bottom = r" \cdot ".join(_number(f, channel) for f in product.under)
-    return f"{_fraction(top, bottom)} = {tex(product.recorded[channel])}"
+    sides = _sides(product, lambda f: tex(np.broadcast_to(f.value, 3)[channel]))
+    return fraction("", sides, r"\cdot", f"= {tex(product.recorded[channel])}")
 
 
-def _number(factor, channel):
-    return tex(np.broadcast_to(factor.value, 3)[channel])
+def _sides(product, spelled):
+    """What stands above and below the line: (LaTeX, event it came from) of each factor."""
+    return tuple([(spelled(f), f.came) for f in side] for side in (product.over, product.under))
 
 
-def _fraction(top, bottom):
-    return rf"\frac{{{top}}}{{{bottom}}}" if bottom else top
-
-
-def _explained(factor, kind, say):
+def _explained(factor, path, kind, say):
     names = {f.name for f in kind.fields}
     meaning = say.meaning(kind, factor.field) if factor.field in names else say("symbol." + factor.field)
-    return {"symbol": mathml(factor.symbol), "meaning": meaning, "value": several(factor.value)}
+    line = _line(factor.symbol, factor.field, meaning, factor.value)
+    return line | _place(None if factor.came is None else path.events[factor.came], say)
+
+
+def _summand(event, say):
+    """A term of the sum at the end of a path."""
+    name = say(f"ledger.{event.kind.name}", depth=event.depth)
+    return _line(_term(event), f"term-{event.step}", name, event.values["contribution"]) | _place(event, say)
+
+
+def _line(symbol, field, meaning, value):
+    """One line of the legend."""
+    exact = [number(v) for v in np.ravel(value)]
+    return {
+        "symbol": mathml(symbol),
+        "field": field,
+        "meaning": meaning,
+        "value": several(value),
+        "exact": exact,
+    }
+
+
+def _place(event, say):
+    """The event that a line of the legend leads to, None for no other."""
+    if event is None:
+        return {"came": None, "source": ""}
+    kind = say(f"kind.{event.kind.name}")
+    return {
+        "came": event.step,
+        "source": say("symbol.from", event=event.step, kind=kind),
+    }
+
+
+def _term(event):
+    return rf"\Delta L_{{{event.step}}}"
 
 
 def _special(path, event):
@@ -156,8 +229,7 @@ def _special(path, event):
     if event.kind.name == "roulette":
         v = event.values
         return mathml(rf"u = {tex(v['u'])} \geq q = {tex(v['probability'])}")
-    terms = [rf"\Delta L_{{{e.step}}}" for e in _giving(path)]
-    return mathml("L = " + _some(terms))
+    return mathml("L = " + _some([_term(e) for e in _giving(path)]))
 
 
 def _sum_rows(path, event):
@@ -170,7 +242,7 @@ def _sum_rows(path, event):
 
 
 def _giving(path):
-    return [e for e in path.events if np.any(e.values.get("contribution", 0) > 0)]
+    return [e for e in path.events if np.any(e.values.get("contribution", 0) != 0)]
 
 
 def _some(terms):
@@ -200,12 +272,3 @@ def _weight(event, settings, say):
 def _sq(value, power):
     number = tex(value)
     return rf"({number}){power}" if power and "times" in number else number + power
-
-
-@lru_cache(512)
-def mathml(latex):
-    """LaTeX as MathML; the converter is loaded when the first formula is."""
-    from latex2mathml.converter import convert
-
-    plus, equals = "<mo>&#x0002B;</mo>", "<mo>&#x0003D;</mo>"
-    return convert(latex, display="block").replace(plus + equals, "<mo>+=</mo>")

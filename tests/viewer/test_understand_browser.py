@@ -1,0 +1,93 @@
+"""From a pixel to its reasons in a browser: what is shown is what the commands say, and clicks lead there."""
+
+import json
+
+import numpy as np
+import pytest
+from suite import castray
+
+pytestmark = pytest.mark.browser
+
+SIZE = ("--size", "64", "64", "--spp", "8", "--max-depth", "6")
+START = "scene=cornell_unit&width=64&height=64&spp=8&max_depth=6&x=30&y=45&path=0&event=0"
+
+
+@pytest.fixture(scope="module")
+def page(serve, browser):
+    """One tab of one viewer for all tests of this file."""
+    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
+    errors = []
+    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
+    opened.goto(serve("cornell_unit", *SIZE).address)
+    opened.wait_for_selector("html[data-ready]")
+    yield opened
+    assert errors == []
+    opened.context.close()
+
+
+@pytest.fixture(scope="module")
+def inspected():
+    """`castray inspect --json` of the pixel where every test starts."""
+    ran = castray("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--json")
+    assert ran.returncode == 0, ran.stderr
+    return json.loads(ran.stdout)
+
+
+@pytest.fixture(autouse=True)
+def start(page):
+    """Every test starts at the same place."""
+    open_link(page, START)
+
+
+def open_link(page, link):
+    """Turn to what a link says."""
+    page.evaluate("link => window.trame.trigger('open', [link])", link)
+    page.locator(f"[data-testid=castray][data-link='{link}']").wait_for()
+
+
+def stands_at(page, path, event):
+    """Wait until the table shows that path and event as the ones of now."""
+    page.locator(
+        f"[data-testid=event-table][data-path='{path}'] [data-testid=row-{event}][data-now=true]"
+    ).wait_for()
+
+
+def exact(page, name):
+    """The numbers behind what is shown, every digit."""
+    return json.loads(page.get_by_test_id(name).get_attribute("data-exact"))
+
+
+def test_the_waterfall_adds_up_and_its_bars_lead_to_the_largest_contribution(page, inspected):
+    page.get_by_test_id("tab-ledger").click()
+    names = page.locator("[data-testid^='bar-']").evaluate_all("all => all.map((e) => e.dataset.testid)")
+    total = [sum(exact(page, name)[c] for name in names) for c in range(3)]
+    assert exact(page, "ledger-pixel") == inspected["value"]
+    assert total == pytest.approx(np.float32(inspected["value"]).tolist(), rel=1e-14)
+    given = [
+        (max(e["contribution"]), k, e["step"])
+        for k, sample in enumerate(inspected["samples"])
+        for e in sample["events"]
+        if e["kind"] == "light" and e["depth"] == 1
+    ]
+    _, path, step = max(given)
+    page.get_by_test_id("bar-light-1").click()
+    stands_at(page, path, step)
+
+
+def test_a_factor_leads_to_the_event_that_made_it(page, inspected):
+    page.get_by_test_id("tab-equation").click()
+    events = inspected["samples"][0]["events"]
+    light = next(e for e in events if e["kind"] == "light" and e["depth"] == 1)
+    bounce = next(e for e in events if e["kind"] == "bounce" and e["depth"] == 0)
+    page.get_by_test_id(f"row-{light['step']}").click()
+    page.locator("[data-testid=factor-Le]").wait_for()
+    for field in ("beta", "f", "cos", "Le", "w", "pdf"):
+        shown = exact(page, f"factor-{field}")
+        assert shown == (light[field] if isinstance(light[field], list) else [light[field]])
+    page.get_by_test_id("source-beta").click()
+    stands_at(page, 0, bounce["step"])
+    assert bounce["beta"] == light["beta"]
+    page.get_by_test_id(f"row-{light['step']}").click()
+    page.locator("[data-testid=equation-symbolic] .from").nth(1).click()
+    hit = next(e for e in events if e["kind"] == "hit" and e["depth"] == 1)
+    stands_at(page, 0, hit["step"])
