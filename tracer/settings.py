@@ -68,7 +68,7 @@ class Settings:
         choices=("bvh", "embree"),
     )
     jitter: bool = option(True, "spread samples over the pixel (off: all through its centre)")
-    bug: str | None = option(None, "plant a bug of the zoo (`castray bugs` lists them)")
+    bug: str | None = option(None, "plant bugs of the zoo, as in E01 or E01,D06 (`castray bugs` lists them)")
 
     def __post_init__(self):
         for f in fields(self):

@@ -61,7 +61,8 @@ def _hit(v, scene, say):
 
 
 def light_outcome(v):
-    """What became of a light sample: behind, below, absorbed, blocked, lit or nothing."""
+    """What became of a light sample: behind, below, absorbed, blocked, denied (it counts as
+    hidden, though nothing is in the way), lit or nothing."""
     if v["cos_light"] <= 0:
         return "behind"
     if not np.any(v["f"] > 0):
@@ -69,7 +70,7 @@ def light_outcome(v):
     if not np.any(v["transmittance"] > 0):  # nothing can arrive: whether q is seen was not asked
         return "absorbed"
     if not v["visible"]:
-        return "blocked"
+        return "blocked" if v["blocker"] >= 0 else "denied"
     return "lit" if np.any(v["contribution"] > 0) else "nothing"
 
 

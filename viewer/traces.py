@@ -34,7 +34,7 @@ class Strokes:
             p, q = np.asarray(hit["p"], float), np.asarray(sample["q"], float)
             if outcome == "lit":
                 parts["lit"] += [solids.rods(p, q, self.thin), solids.balls(q, 3 * self.thin)]
-            elif outcome == "blocked":
+            elif outcome in ("blocked", "denied"):
                 stop = p + float(sample["blocker_distance"]) * np.asarray(sample["wi"], float)
                 stop = stop if np.all(np.isfinite(stop)) else q
                 parts["blocked"] += [

@@ -216,5 +216,7 @@ def dials(settings):
         if name == "bug":
             choices = ["", *(bug.id for family in FAMILIES.values() for bug in family)]
         value = getattr(settings, name)
+        if name == "bug" and value and value not in choices:
+            choices.append(value)  # several, planted by the command
         found.append({"name": name, "value": "" if value is None else value, "choices": choices})
     return found

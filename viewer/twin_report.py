@@ -5,7 +5,7 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
-from lessons.zoo import of
+from lessons.zoo import several
 from tracer.twin.parting import DEPTH, KIND, MISSING
 from viewer.caption import shown
 from viewer.numerals import luminance
@@ -41,7 +41,7 @@ def _print_head(twin, names, sides, bug, say, console):
     about = {name: getattr(one.settings, name) for name in ("width", "height", "spp", "integrator", "seed")}
     title = say("twin.and", one=names[0], other=names[1])
     if bug:
-        title = say("twin.title", bug=bug, title=title_of(of(bug), say))
+        title = say("twin.title", bug=bug, title=say.listed(*(title_of(one, say) for one in several(bug))))
     console.print(Text(title, style="bold"))
     console.print(Text(say("twin.head", scene=one.scene.name, **about)))
     console.print(say("twin.pairs", pairs=twin.pairs))
@@ -61,13 +61,14 @@ def _print_same(twin, bug, say, console):
     console.print(Text(said, style="bold green"))
     if not bug:
         return
-    known = of(bug)
-    if known.only_cost:
+    known = [one for one in several(bug) if not one.only_cost]
+    if not known:
         console.print(say("twin.cost", bug=bug))
         return
     console.print(say("twin.elsewhere", bug=bug))
-    words = known.command.replace("castray render", "castray twin", 1)
-    console.print(Text(words, style="cyan"), soft_wrap=True)
+    for one in known:
+        words = one.command.replace("castray render", "castray twin", 1)
+        console.print(Text(words, style="cyan"), soft_wrap=True)
 
 
 def _print_causes(twin, names, bug, say, console):

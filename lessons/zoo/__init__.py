@@ -1,6 +1,6 @@
 """The bug zoo: mistakes that nearly everyone makes once, each a few lines that replace a step of the loop.
 
-    picture = tracer.render(scene, settings, steps=zoo.steps("E01"))
+    picture = tracer.render(scene, settings, steps=zoo.steps("E01"))  # or "E01,D06": both at once
 
 Ids are stable: links, recordings and lessons name them.
 """
@@ -44,7 +44,19 @@ ZOO = {bug.id: bug for bugs in FAMILIES.values() for bug in bugs}
 # Mistakes that no recording tells apart: they give the same numbers, or none at all.
 ALIKE = (frozenset(("E01", "E04")), frozenset(("D01", "D02")), frozenset(("P01", "P07")))
 
-__all__ = ["ALIKE", "FAMILIES", "RIGHT", "ZOO", "Bug", "alike", "changed", "of", "planted", "steps"]
+__all__ = [
+    "ALIKE",
+    "FAMILIES",
+    "RIGHT",
+    "ZOO",
+    "Bug",
+    "alike",
+    "changed",
+    "of",
+    "planted",
+    "several",
+    "steps",
+]
 
 
 def alike(bug_id):
@@ -59,19 +71,34 @@ def of(bug_id):
     return ZOO[bug_id]
 
 
-def steps(bug_id):
-    """The Steps of a tracer with this bug. Raises TracerError with the ids there are."""
-    return of(bug_id).steps
+def several(bug_ids):
+    """The Bugs of one id, or of some that commas join, such as E01,D01. Raises TracerError for one that is
+    not there, and for two that would replace the same step."""
+    found = tuple(of(name.strip()) for name in bug_ids.split(","))
+    planter = {}
+    for bug in found:
+        for step in bug.changes:
+            if step in planter:
+                raise TracerError(
+                    f"bug: {planter[step]} and {bug.id} both replace the step {step}; plant one of them"
+                )
+            planter[step] = bug.id
+    return found
+
+
+def steps(bug_ids):
+    """The Steps of a tracer with one bug, or some at once (see several)."""
+    return changed(**{step: wrong for bug in several(bug_ids) for step, wrong in bug.changes.items()})
 
 
 def planted(settings):
-    """The Steps of the tracer that the settings ask for: with their bug, or right. Raises TracerError for a
-    bug that is not there, or that would never let go with these settings."""
+    """The Steps of the tracer that the settings ask for: with their bugs, or right. Raises TracerError for
+    bugs that are not there, clash, or would never let go with these settings."""
     if not settings.bug:
         return RIGHT
-    bug = of(settings.bug)
-    bug.check(settings)
-    return bug.steps
+    for bug in several(settings.bug):
+        bug.check(settings)
+    return steps(settings.bug)
 
 
 def changed(**steps):

@@ -6,19 +6,15 @@ from lessons.zoo.bounce import without_guard
 from lessons.zoo.bug import CENTRES, Bug
 from lessons.zoo.emission import COUNT_ONCE, always
 from lessons.zoo.film import centres
-from lessons.zoo.light import HOMEWORK_LAMP, VISIBILITY, behind_too, lamp_cosine_signed, rooted
+from lessons.zoo.light import (
+    HOMEWORK_LAMP,
+    VISIBILITY,
+    behind_too,
+    lamp_cosine_signed,
+    rooted,
+    without_tolerance,
+)
 from tracer import warp
-from tracer.frame import dot
-
-NEAR = 1e-3  # relative distance within which a hit is the lamp itself
-
-
-def float_against_double(scene, hit, light):
-    """The distance of the first hit in float64 against that of the lamp's point in float32."""
-    t, _ = scene.intersect(hit.p, light.wi, hit.primitive)
-    p, q, wi, nq = (v.astype(np.float64) for v in (hit.p, light.q, light.wi, light.nq))
-    to_lamp = dot(q - p, nq) / dot(wi, nq)
-    return (t >= light.distance * (1.0 - NEAR)) & (to_lamp >= light.distance)
 
 
 def lamp_material_of_one_direction(scene, hit, wo, wi):
@@ -45,7 +41,7 @@ BUGS = (
             "emission_weight": always,
             "light_point": lamp_with_two_sides,
             "eval": lamp_material_of_one_direction,
-            "visibility": float_against_double,
+            "visibility": without_tolerance,
             "light_term": lamp_cosine_signed,
             "carries": without_guard,
         },

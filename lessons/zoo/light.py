@@ -3,6 +3,7 @@
 import numpy as np
 
 from lessons.zoo.bug import CENTRES, Bug
+from lessons.zoo.rounding import shadow_distances
 from lessons.zoo.where import of_shape
 from tracer import warp
 from tracer.frame import dot
@@ -22,14 +23,14 @@ LIGHT_TERM = "I5: a light sample brings beta Le f cos cos_light V / (r^2 pdf_are
 
 def without_tolerance(scene, hit, light):
     """Rounding decides whether the lamp lies in front of itself."""
-    t, _ = scene.intersect(hit.p, light.wi, hit.primitive)
-    return t >= light.distance
+    t, r = shadow_distances(scene, hit, light)
+    return t >= r
 
 
 def tolerance_below_an_ulp(scene, hit, light):
-    """A tolerance that rounds to none where distances are hundreds of units."""
-    t, _ = scene.intersect(hit.p, light.wi, hit.primitive)
-    return t - light.distance >= -light.distance.dtype.type(EPSILON)
+    """A tolerance that is lost where it is less than the gap between neighbouring numbers."""
+    t, r = shadow_distances(scene, hit, light)
+    return t >= r - np.where(np.spacing(r) > EPSILON, 0.0, EPSILON)
 
 
 def reversed_comparison(scene, hit, light):
@@ -143,7 +144,7 @@ BUGS = (
     Bug(
         "D01",
         "Shadow test without tolerance",
-        "Dark specks, or stripes without jitter: some of the free light samples count as blocked.",
+        "Dark specks, or stripes without jitter: half of the free light samples count as blocked.",
         "visible = distance of the first hit >= |lamp point - surface point|",
         VISIBILITY,
         {"visibility": without_tolerance},
@@ -152,8 +153,8 @@ BUGS = (
     Bug(
         "D02",
         "Shadow tolerance smaller than the rounding",
-        "Dark specks or stripes as without any tolerance: some of the free light samples count as blocked.",
-        "visible = distance of the first hit - r > -0.00001, in a scene of 560 units in float32",
+        "Dark specks or stripes as without any tolerance: half of the free light samples count as blocked.",
+        "visible = distance of the first hit >= r - 0.00001, in a scene of 560 units in float32",
         VISIBILITY,
         {"visibility": tolerance_below_an_ulp},
         settings=CENTRES,

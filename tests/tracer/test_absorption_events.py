@@ -58,7 +58,7 @@ def test_a_light_sample_through_black_glass_asks_for_no_shadow_and_says_why(suit
     assert inside
     for path, v in inside:
         assert not v["visible"] and not v["transmittance"].any() and light_outcome(v) == "absorbed"
-        assert "absorbed on the way" in why_dead(path, scene, Speaker())
+        assert "absorbed on the way" in why_dead(path, scene, Speaker("en"))
 
 
 def never(scene, medium, distance):

@@ -6,6 +6,7 @@ together raise a false alarm with a significance of 1 % (Sidak).
 
 import re
 import time
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -118,6 +119,39 @@ def test_the_command_of_a_bug_asks_for_its_settings(bug):
     settings, steps = settings_and_steps(bound.arguments["options"])
     assert settings == bug.asked(bug=bug.id) and steps == bug.steps
     assert bound.arguments["scene"] == bug.scene
+
+
+def test_several_bugs_at_once_each_do_what_they_do_alone(suite_seed):
+    settings = Settings(width=8, height=8, spp=2, seed=suite_seed, integrator="direct", jitter=False)
+    alone = {bug: zoo.steps(bug) for bug in ("E01", "D01", "D06")}
+    together = zoo.planted(replace(settings, bug="E01, D01,D06"))
+    for steps in alone.values():
+        changed = [step for step in vars(steps) if getattr(steps, step) is not getattr(zoo.RIGHT, step)]
+        assert changed and all(getattr(together, step) is getattr(steps, step) for step in changed)
+    light = {bug: picture_of(settings, steps) for bug, steps in alone.items()}
+    light |= {"": picture_of(settings, zoo.RIGHT), "D01,E01": picture_of(settings, zoo.steps("D01,E01"))}
+    salt = light["E01"] - light[""]  # it is added to whatever light samples bring
+    assert salt.max() > 0.0 and np.allclose(light["D01,E01"] - light["D01"], salt, atol=1e-4)
+
+
+def picture_of(settings, steps):
+    return tracer.render(loaded("cornell"), settings, steps=steps).rgb
+
+
+@pytest.mark.parametrize(
+    ("bugs", "said"),
+    [
+        ("D01,D02", "D01 and D02 both replace the step visibility"),
+        ("D08,castray", "D08 and castray both replace the step light_point"),
+        ("E01,Z09", "'Z09' is not in the zoo"),
+        ("E01,", "'' is not in the zoo"),
+        ("E01,P02", "P02 lets no path end"),
+    ],
+)
+def test_bugs_that_cannot_be_planted_at_once_are_refused_in_one_line(bugs, said):
+    with pytest.raises(TracerError, match=said) as refused:
+        zoo.planted(Settings(bug=bugs))
+    assert "\n" not in str(refused.value)
 
 
 def test_look_alikes_are_bugs_of_the_zoo_each_in_one_class():
