@@ -123,9 +123,9 @@ def _literal(tokens):
 
 
 def _whole(text):
-    """Text in brackets unless it is one thing."""
+    """Text in brackets unless it is one thing, a function of something included."""
     text = text.strip()
-    return text if re.fullmatch(r"[\w.₀-₉ₐ-ₜ⁰-⁹²³¹ᵢ°′]+", text) else f"({text})"
+    return text if re.fullmatch(r"[\w.₀-₉ₐ-ₜ⁰-⁹²³¹ᵢ°′]+(\([\w₀-₉ₐ-ₜᵢ]+\))?", text) else f"({text})"
 
 
 def _script(text, table, mark):
