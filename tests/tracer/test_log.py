@@ -81,6 +81,21 @@ def test_a_roulette_that_is_not_paid_for_shows_as_such(written, cornell):
     np.testing.assert_allclose(trace.tables["bounce"]["beta"][:, 0], FACTOR * 0.8, rtol=1e-6)
 
 
+@pytest.mark.parametrize(("height", "fires"), [(548.7, False), (548.6, True)])
+def test_light_along_the_lamps_plane_may_come_from_either_side(written, cornell, height, fires):
+    p, q = np.array([278, height, 559.2]), np.array([278, 548.7, 280])
+    d = p - OUTER["ray.o"]
+    arrives = (1e-8 * np.array([47.8348 * 0.725, 38.5664 * 0.71, 31.0808 * 0.68])).tolist()
+    call = OUTER | {
+        "ray.d": (d / np.linalg.norm(d)).tolist(), "hit.p": p.tolist(), "hit.n": [0, 0, -1],
+        "light.q": q.tolist(), "light.pdf_area": 1 / 13650, "direct": arrives, "indirect": [0, 0, 0],
+        "returned": arrives, "roulette.survived": False,
+    }  # fmt: skip
+    log = read_log(written(call, head=HEADER | {"digits": 6}), cornell)
+    said = [f.rule for f in tracer.examine(log.trace).findings]
+    assert said == (["light-term"] if fires else [])
+
+
 def test_what_is_worked_out_is_not_taken_for_recorded(written, cornell):
     trace = read_log(written(OUTER, INNER), cornell).trace
     assert {"hit.primitive", "bounce.f", "bounce.cos"} <= trace.rebuilt

@@ -28,7 +28,7 @@ class Lights(Stages):
             found["light"] = said("light", lambda: np.maximum(self.scene.light_of.take(primitive), 0))
             ng, _ = geometry.surfaces(self.scene, q, found["wi"], primitive)
             found["nq"] = nq = said("nq", lambda: ng)
-            front = -dot(ng, found["wi"]) > 0.0
+            front = (-dot(ng, found["wi"]) > 0.0) | self._edge_on(q, p, ng, rows)
             found["Le"] = said("Le", lambda: self._radiance(primitive, front)) * front
             by_area = bool(self.chain.given("light.pdf_area")[rows].all())
             found["pdf"] = said("pdf", lambda: self._density(found, p, ng), by_area)
@@ -54,13 +54,25 @@ class Lights(Stages):
         self._beneath(found, rows)
         return found
 
+    def _off(self):
+        """How far each coordinate of a logged point may be off by its printing."""
+        return self.eps * max(geometry.scale(self.scene), float(np.abs(self.scene.camera.origin).max()))
+
+    def _edge_on(self, q, p, nq, rows):
+        """Where a vertex lies in the lamp's plane as far as points say, and the logged term is not 0, (K,):
+        there only the program knew on which side it was."""
+        if not self._all_given("direct", rows):
+            return np.zeros(rows.size, bool)
+        something = (self.chain("direct")[:, rows] != 0.0).any(axis=0)
+        return something & (np.abs(dot(nq, q - p)) <= 4.0 * self._off())
+
     def _as_near_as_points_say(self, found, direct, rows):
         """A density that was worked out from two points is as uncertain as they are, which is much where one
         lies near the plane of the other's surface. Within that it is the one that the logged term has."""
         parts = ("f", "Le", "cos", "w", "pdf", "visible", "q", "wi", "nq")
         if "light.pdf" not in self.rebuilt or any(found.get(name) is None for name in parts):
             return
-        off = 32.0 * self.eps * max(geometry.scale(self.scene), float(np.abs(self.scene.camera.origin).max()))
+        off = 32.0 * self._off()
         height = np.abs(dot(found["nq"], found["q"] - self.places.p[:, rows]))
         if "light.cos" in self.rebuilt:
             height = np.minimum(
@@ -69,7 +81,7 @@ class Lights(Stages):
         with np.errstate(all="ignore"):
             term = found["f"] * found["Le"] * found["cos"] * found["w"] * found["visible"]
             implied = term.max(axis=0) / direct.max(axis=0)
-            near = np.abs(implied / found["pdf"] - 1.0) <= 2.0 * off / height
+            near = (np.abs(implied / found["pdf"] - 1.0) <= 2.0 * off / height) | (height <= off / 8.0)
         found["pdf"] = np.where(near & np.isfinite(implied), implied, found["pdf"])
 
     def _beneath(self, found, rows):
