@@ -4,7 +4,14 @@ import re
 from functools import cache
 from html import escape
 
-from lessons.words import markdown
+from lessons.plain import NAMES
+from lessons.words import TaskWords, markdown
+
+# The converter leaves no room around sin and its like.
+NAME = rf"\\(?:{'|'.join(NAMES)})(?![A-Za-z])"
+SCRIPT = r"[\^_](?:\{[^{}]*\}|\\[A-Za-z]+|.)"
+BEFORE = re.compile(rf"(?<=[\w}}])\s*({NAME})")
+AFTER = re.compile(rf"({NAME}(?:{SCRIPT})*)\s*(?=[A-Za-z\\])(?!\\(?:left|[,;:! ]))")
 
 
 def html(text, href):
@@ -13,12 +20,29 @@ def html(text, href):
     return re.sub(r'href="#([\w-]+)"', lambda found: f'href="{escape(href(found[1]))}"', made)
 
 
+def body(run, language, href):
+    """A lesson's text as pages show it: pieces of HTML, and TaskWords whose words are HTML."""
+
+    def made(text):
+        return html(run.fill(text), href)
+
+    for part in run.lesson.words[language].body:
+        if isinstance(part, str):
+            yield made(part)
+            continue
+        choices = {name: made(text) for name, text in part.choices.items()}
+        wrong = {k: made(text) for k, text in part.wrong.items()}
+        hints = [made(text) for text in part.hints]
+        yield TaskWords(part.id, made(part.ask), choices, hints, wrong, made(part.solution))
+
+
 @cache
 def mathml(latex, display=False):
     """One formula. The converter is loaded when the first is."""
     from latex2mathml.converter import convert
 
-    return convert(latex.strip(), display="block" if display else "inline")
+    spaced = BEFORE.sub(r"\,\1", AFTER.sub(r"\1\,", latex.strip()))
+    return convert(spaced, display="block" if display else "inline")
 
 
 @cache

@@ -7,6 +7,8 @@ import warnings
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+UNREADABLE = (LookupError, ValueError, TypeError, AttributeError)
+
 
 @dataclass
 class Done:
@@ -41,7 +43,7 @@ class Progress:
         try:
             self.file = (Path(folder) if folder else home()) / "lessons.json"
             self._done = _read(self.file)
-        except (RuntimeError, OSError, LookupError, ValueError, TypeError, AttributeError) as error:
+        except (RuntimeError, OSError, *UNREADABLE) as error:
             self._give_up("read", error)
 
     def of(self, lesson, task):
@@ -52,15 +54,35 @@ class Progress:
         """The ids of a lesson's solved tasks."""
         return {task for (number, task), done in self._done.items() if number == lesson and done.solved}
 
+    def tried(self, lesson, task, right, hints):
+        """Note a try, after which a wrong answer shows the next of so many hints; the Done that it makes."""
+        done = self.of(lesson, task)
+        done.tries += 1
+        done.solved |= right
+        if not right:
+            done.hints = min(done.hints + 1, hints)
+        self.note(lesson, task, done)
+        return done
+
+    def hinted(self, lesson, task, hints):
+        """Note that the next of so many hints is shown; the Done that it makes."""
+        done = self.of(lesson, task)
+        done.hints = min(done.hints + 1, hints)
+        self.note(lesson, task, done)
+        return done
+
     def note(self, lesson, task, done):
         """Keep how far the reader is."""
         self._done[lesson, task] = done
         if not self.kept:
             return
         try:
+            self._done = _read(self.file) | {(lesson, task): done}  # others may have written meanwhile
             self._write()
         except OSError as error:
             self._give_up("written", error)
+        except UNREADABLE as error:
+            self._give_up("read", error)
 
     def _write(self):
         self.file.parent.mkdir(parents=True, exist_ok=True)

@@ -8,6 +8,7 @@ import webbrowser
 from pathlib import Path
 
 import tracer
+from lessons.course import lesson
 from tracer.scene_file.change import changed
 from tracer.settings import TracerError
 from viewer import link as links
@@ -16,11 +17,14 @@ from viewer.session import Session
 from viewer.words import Speaker
 
 
-def serve(scene, settings, port=None, open_browser=True, start=None, recording=None, what_if=None):
+def serve(
+    scene, settings, port=None, open_browser=True, start=None, recording=None, what_if=None, lesson=None
+):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
     start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of; what_if:
-    suppositions about the path there. TracerError where port or place will not do.
+    suppositions about the path there; lesson: the number of one to be read. TracerError where port or place
+    will not do.
     """
     session = Session(scene, settings, Scenes(scene).find, recording)
     try:
@@ -28,7 +32,13 @@ def serve(scene, settings, port=None, open_browser=True, start=None, recording=N
         session.suppose(what_if or {})
     except IndexError as error:
         raise TracerError(f"link: {error}: there is no such place") from None
-    _run(session, port, open_browser)
+    _run(session, port, open_browser, lesson)
+
+
+def serve_lesson(number, port=None, open_browser=True):
+    """Open the viewer where a lesson begins, the lesson beside it."""
+    start = links.of_moment(lesson(number).moments["start"])
+    serve(tracer.load(start.scene), start.settings, port, open_browser, start.place, lesson=number)
 
 
 def serve_link(text, port=None, open_browser=True):
@@ -54,7 +64,7 @@ class Scenes:
         return self.loaded[name]
 
 
-def _run(session, port, open_browser):
+def _run(session, port, open_browser, number=None):
     from trame.app import get_server
 
     from viewer.calls import Calls
@@ -66,16 +76,21 @@ def _run(session, port, open_browser):
     server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
     server.state.trame__title = say("title")
     window, door = Window(server, session, say), Door(page(say("title")))
+    calls = Calls(window).by_name
 
     def bind(web_server):
         web_server.app.middlewares.append(door.middleware)
-        restrict(web_server, Calls(window).by_name, window.whole_stage)
+        restrict(web_server, calls, window.whole_stage)
 
     def ready(**_):
         window.loop = asyncio.get_running_loop()
         address = f"http://127.0.0.1:{server.port}/?key={door.key}"
         print(address, flush=True)
         window.paint()
+        if number is not None:
+            with server.state as state:
+                state.tab = "lesson"
+                calls["lesson_open"](number)
         if open_browser:
             webbrowser.open(address)
 

@@ -92,14 +92,7 @@ class Calls:
         """Turn to what a link says."""
         if not isinstance(text, str):
             raise TracerError("link: not a text")
-        asked, before = links.parse(text), self.session.scene
-        self.window.pause()
-        if self.session.open(asked):
-            if self.session.scene is not before:
-                self.window.furnish()
-                self.state.rgb = b""
-            self.window.paint()
-        self.window.refresh("picture")
+        self.window.open(links.parse(text))
 
     def take(self, tab, asked="", language=None):
         """A tab leads from now on; asked is the link in its address, language that of its browser."""

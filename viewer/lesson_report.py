@@ -10,20 +10,12 @@ from rich.text import Text
 
 from lessons.plain import spelled
 from lessons.words import MOMENT, TaskWords
-from viewer.link import Link
+from viewer.link import of_moment
 from viewer.words import Speaker, asked, current
 
 DISPLAYED = re.compile(r"^\$\$\s*(.+?)\s*\$\$\s*(?:\([\w-]+\))?[ \t]*$", re.DOTALL | re.MULTILINE)
 INLINE = re.compile(r"(?<![\\$])\$([^$\n]+)\$")
 WAYS = {"number": "NUMBER", "choice": "LETTER", "pixel": "X Y", "path": "PATH", "event": "EVENT", "bug": "ID"}
-
-
-def link(moment):
-    """The Link of a moment, as the viewer's address bar writes it."""
-    from tracer.settings import Settings
-
-    place = (moment.x, moment.y, moment.path, moment.event)
-    return Link(moment.scene, Settings(**moment.settings), place)
 
 
 def command(run, verb, task):
@@ -84,6 +76,7 @@ def _print_task(run, part, solved, places, console):
 
 def _print_foot(run, places, say, console):
     lesson = run.lesson
+    console.print(Text(say("lesson.view", command=f"castray view --lesson {lesson.number}") + "\n"))
     console.print(Text(say("lesson.open")))
     _print_places(lesson, places, console)
     console.print()
@@ -96,7 +89,7 @@ def _print_foot(run, places, say, console):
 def _print_places(lesson, places, console):
     for k, name in enumerate(places, 1):
         console.print(
-            Text.assemble((f"[{k}]", "cyan"), f" castray view '{link(lesson.moments[name]).write()}'"),
+            Text.assemble((f"[{k}]", "cyan"), f" castray view '{of_moment(lesson.moments[name]).write()}'"),
             soft_wrap=True,
         )
 

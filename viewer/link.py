@@ -38,6 +38,12 @@ class Link:
         return urlencode({"scene": self.scene, **said, **place}, quote_via=quote)
 
 
+def of_moment(moment):
+    """The Link to a moment of a lesson."""
+    place = (moment.x, moment.y, moment.path, moment.event)
+    return Link(moment.scene, Settings(**moment.settings), place)
+
+
 def is_link(text):
     """Whether a command line argument is a link rather than the name of a scene or a file."""
     return text.startswith(("http://", "https://", "#scene=", "scene="))

@@ -34,11 +34,12 @@ class Session:
     """The one truth behind every panel.
 
     load: from the name of a scene a link may ask for to that scene; TracerError where it may not.
+    shelf: what panels keep whatever the scene, by their names.
     recording: the Folder that scene and settings come from, if there is one.
     """
 
     def __init__(self, scene, settings, load, recording=None):
-        self.load, self.desk = load, {}
+        self.load, self.desk, self.shelf = load, {}, {}
         self.adopt(scene, settings)
         self.at_start = self.settings
         self.recording = recording

@@ -114,6 +114,17 @@ class Window:
         self.state.update({"touched": True, "message": ""})
         self.refresh("pixel")
 
+    def open(self, link):
+        """Turn to what a Link says."""
+        before = self.session.scene
+        self.pause()
+        if self.session.open(link):
+            if self.session.scene is not before:
+                self.furnish()
+                self.state.rgb = b""
+            self.paint()
+        self.refresh("picture")
+
     def _push_stage(self):
         """Send what changed in 3D; the whole is sent when a page asks for the state."""
         if self.server.protocol:

@@ -90,11 +90,11 @@ def _show(run, progress, json):
 
         print_lesson(run, progress, _console())
         return
-    from viewer.lesson_report import link
+    from viewer.link import of_moment
 
     lesson = run.lesson
     body = [_part(run, part) for part in lesson.words[current()].body]
-    moments = {name: link(moment).write() for name, moment in lesson.moments.items()}
+    moments = {name: of_moment(moment).write() for name, moment in lesson.moments.items()}
     more = {"references": list(lesson.references), "moments": moments, "body": body}
     print_json(_summary(lesson, progress) | more)
 
@@ -116,13 +116,8 @@ def _check(run, said, progress, json):
 
     task, answer = _task_and_answer(run, said, progress)
     verdict = judge(run, task, answer)
-    done = progress.of(run.lesson.number, task.id)
-    done.tries += 1
-    done.solved |= verdict.right
     words = run.lesson.words[current()].tasks[task.id]
-    if not verdict.right:
-        done.hints = min(done.hints + 1, len(words.hints))
-    progress.note(run.lesson.number, task.id, done)
+    done = progress.tried(run.lesson.number, task.id, verdict.right, len(words.hints))
     if json:
         print_json(_verdict(run, task, verdict, done, words))
     else:
@@ -156,10 +151,8 @@ def _hint(run, name, progress, json):
     from viewer.lesson_report import print_hint
 
     words = run.lesson.words[current()].tasks[run.lesson.task(name).id]
-    done = progress.of(run.lesson.number, name)
-    more = done.hints < len(words.hints)
-    done.hints += more
-    progress.note(run.lesson.number, name, done)
+    more = progress.of(run.lesson.number, name).hints < len(words.hints)
+    done = progress.hinted(run.lesson.number, name, len(words.hints))
     if json:
         text = run.fill(words.hints[done.hints - 1])
         print_json({"task": name, "hint": text, "number": done.hints, "of": len(words.hints)})

@@ -8,9 +8,10 @@ from viewer.options import PathOptions, Whole, scene_of, settings_and_steps
 
 
 def view(
-    scene: str = "cornell_unit",
+    scene: str | None = None,
     /,
     *,
+    lesson: Annotated[int | None, Whole] = None,
     port: Annotated[int | None, Whole] = None,
     browser: bool = True,
     options: PathOptions | None = None,
@@ -20,8 +21,11 @@ def view(
     Parameters
     ----------
     scene
-        A scene file, the bare name of one that comes with castray, a link from the viewer's address bar, or a
-        folder that castray render --record made (castray query names a place in it: DIR#x=..&y=..&path=..).
+        A scene file, the bare name of one that comes with castray (default: cornell_unit), a link from the
+        viewer's address bar, or a folder that castray render --record made (castray query names a place in
+        it: DIR#x=..&y=..&path=..).
+    lesson
+        Open that lesson beside its scene, in place of a scene.
     port
         Where to listen on 127.0.0.1 (default: any free port).
     browser
@@ -32,6 +36,12 @@ def view(
 
     if port is not None and not 0 <= port <= 65535:
         raise TracerError(f"port: {port} is not between 0 and 65535")
+    if lesson is not None:
+        if scene is not None or options is not None:
+            raise TracerError("view: a lesson has its own scene and settings; leave out yours")
+        viewer_app.serve_lesson(lesson, port, browser)
+        return
+    scene = "cornell_unit" if scene is None else scene
     if is_link(scene):
         viewer_app.serve_link(scene, port, browser)
         return
