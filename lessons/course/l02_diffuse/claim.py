@@ -1,4 +1,4 @@
-"""Why f = albedo / pi: the cosine's integral over the hemisphere is pi, and a furnace shows what else happens."""
+"""Why f = albedo / pi: the cosine's integral over the hemisphere is pi, and a furnace shows the rest."""
 
 import numpy as np
 
