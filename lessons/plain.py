@@ -16,7 +16,7 @@ SIGNS = {
     "equiv": "≡", "sim": "~", "ll": "≪", "gg": "≫", "mid": "|", "vert": "|", "lVert": "‖", "rVert": "‖",
     "lvert": "|", "rvert": "|", "Rightarrow": "⇒", "rightarrow": "→", "perp": "⊥", "parallel": "∥",
     "langle": "⟨", "rangle": "⟩", "lfloor": "⌊", "rfloor": "⌋", "forall": "∀", "land": "∧", "lor": "∨",
-    "div": "÷",
+    "div": "÷", "iff": "⇔",
 }  # fmt: skip
 NAMES = (
     "sin", "cos", "tan", "arcsin", "arccos", "arctan", "max", "min", "log", "ln", "exp", "lim", "arg", "det",
@@ -39,7 +39,7 @@ WORDS = ("text", "mathrm", "mathbf", "mathit", "operatorname", "mathsf", "boldsy
 ABOVE = {"hat": "\u0302", "bar": "\u0304", "tilde": "\u0303", "vec": "\u20d7"}
 RAISED = dict(zip("0123456789+-()niT", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ⁿⁱᵀ", strict=True)) | {"°": "°", "'": "′"}
 LOWERED = dict(zip("0123456789+-()aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉₊₋₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
-LOOSE = "=<>≤≥≈≠→⇒≡∝≪≫+−·×"
+LOOSE = "=<>≤≥≈≠→⇒⇔≡∝≪≫+−·×"
 
 
 def spelled(latex):

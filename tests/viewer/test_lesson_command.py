@@ -108,3 +108,7 @@ def test_lost_progress_is_one_line_and_stops_nobody(ask, tmp_path):
     assert done.returncode == 0 and "Right." in done.stdout
     assert done.stderr.count("\n") == 1 and "progress is not kept" in done.stderr
     assert ask("4", "--solution", "friend").returncode == 0
+
+
+def test_a_product_in_a_choice_keeps_its_sign(ask):
+    assert "0.9999 * r" in ask("13").stdout
