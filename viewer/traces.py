@@ -6,6 +6,7 @@ from viewer import solids
 from viewer.caption import light_outcome
 
 MOST_OTHERS = 256  # more faint paths than this are only fog
+NAMES = {"n": "n", "wo": "ωₒ", "wi": "ωᵢ", "light": "ωᵢ → q"}  # of the arrows
 
 
 class Strokes:
@@ -108,11 +109,10 @@ class Strokes:
 
     def labels(self, path, index):
         """Words at places: {text, layer, at} for the browser to project."""
-        names = {"n": "n", "wo": "ωₒ", "wi": "ωᵢ", "light": "ωᵢ → q"}
         marks = []
         for name, start, direction, length in self.vectors(path, index):
             at = np.asarray(start, float) + 1.12 * length * np.asarray(direction, float)
-            marks.append({"text": names[name], "layer": name, "at": at.tolist()})
+            marks.append({"text": NAMES[name], "layer": name, "at": at.tolist()})
         return marks
 
 

@@ -1,0 +1,110 @@
+"""The scene's shapes as triangles, made so that one sees what happens behind them, and where to look from."""
+
+import numpy as np
+
+from viewer.numerals import srgb
+
+BACKGROUND = (0.055, 0.062, 0.078)
+VIEW_ANGLE = 30.0
+LAMP = (1.0, 0.97, 0.85)
+FEW = 256  # so many faces are looked at one by one
+DIMMED = 0.62  # surfaces step back, so that the paths stand out
+COLOURS = {
+    "others": (0.36, 0.40, 0.48),
+    "walked": (1.0, 1.0, 1.0),
+    "ahead": (0.60, 0.66, 0.76),
+    "lit": (1.0, 0.86, 0.35),
+    "blocked": (1.0, 0.42, 0.38),
+    "what_if": (0.89, 0.42, 1.0),
+    "idle": (0.55, 0.58, 0.64),
+    "here": (1.0, 1.0, 1.0),
+    "n": (0.45, 0.90, 0.53),
+    "wo": (0.40, 0.72, 1.0),
+    "wi": (1.0, 0.62, 0.30),
+    "light": (1.0, 0.90, 0.45),
+}
+
+
+class Surface:
+    """A shape of the scene, made so that one sees what happens behind it."""
+
+    def __init__(self, scene, index, low, high):
+        self.name = scene.shapes[index].name
+        vertices, faces = scene.shapes[index].triangles()
+        self.vertices, self.faces = np.asarray(vertices, float), np.asarray(faces, int)
+        self.wall = _is_wall(self.vertices, low, high)
+        self.lamp = scene.is_light(index)
+        self.colour = LAMP if self.lamp else tuple(DIMMED * srgb(scene.display_colour(index)))
+        self.opacity = 1.0 if self.wall else 0.3 if scene.is_see_through(index) else 0.55
+        if self.wall:
+            self.faces = self._turned((low + high) / 2)
+        self.one_sided = self.wall or self._turn_outwards()
+        if not self.wall:
+            self.faces = self.faces[~_pressed(self.vertices[self.faces], low, high)]
+
+    def _turned(self, point):
+        """The faces, each turned towards a point."""
+        away = self._lean(self.faces, point) < 0
+        return np.where(away[:, None], self.faces[:, ::-1], self.faces)
+
+    def _lean(self, faces, point):
+        a, b, c = (self.vertices[faces[:, k]] for k in range(3))
+        return np.einsum("ij,ij->i", np.cross(b - a, c - a), point - a)
+
+    def _turn_outwards(self):
+        """Turn the faces of a closed convex solid outwards; False, and nothing done, where it is none."""
+        centre, slack = self.vertices.mean(axis=0), 1e-6 * np.ptp(self.vertices) ** 3
+        if np.ptp(self.vertices, axis=0).min() == 0:
+            return False
+        if len(self.faces) > FEW:
+            return bool(self._lean(self.faces, centre).max() <= slack)
+        faces = self._turned(centre)[:, ::-1]
+        if max(self._lean(faces, v).max() for v in self.vertices) > slack:
+            return False
+        self.faces = faces
+        return True
+
+
+def surfaces(scene):
+    """Every shape of the scene; what is seen through comes last, over all the rest."""
+    low, high = bounds(scene)
+    shapes = [Surface(scene, index, low, high) for index in range(len(scene.shapes))]
+    return sorted(shapes, key=lambda s: not s.wall)
+
+
+def bounds(scene):
+    """The lowest and the highest corner of a scene."""
+    low, high = (np.asarray(b, float) for b in scene.bounds())
+    return low, high
+
+
+def viewpoint(scene, low, high):
+    """Where to look from: the scene's own camera, stepped aside and back until everything is seen."""
+    camera = scene.camera
+    forward, up = np.asarray(camera.forward, float), np.asarray(camera.up, float)
+    side = np.cross(forward, up)
+    back = -forward + 0.38 * side + 0.24 * up
+    back /= np.linalg.norm(back)
+    centre = (low + high) / 2
+    distance = 0.5 * np.linalg.norm(high - low) / np.sin(np.radians(VIEW_ANGLE / 2)) * 0.8
+    return {
+        "position": (centre + distance * back).tolist(),
+        "focalPoint": centre.tolist(),
+        "viewUp": up.tolist(),
+        "viewAngle": VIEW_ANGLE,
+        "centerOfRotation": centre.tolist(),
+    }
+
+
+def _is_wall(vertices, low, high):
+    """Whether a shape encloses the scene or lies flat on its bounds: then it must not hide what is inside."""
+    slack = 0.01 * np.linalg.norm(high - low)
+    mine_low, mine_high = vertices.min(axis=0), vertices.max(axis=0)
+    flat = (mine_high - mine_low < slack) & ((mine_low - low < slack) | (high - mine_high < slack))
+    return bool(flat.any() or np.all(mine_high - mine_low > 0.9 * (high - low)))
+
+
+def _pressed(triangles, low, high):
+    """Which triangles (F, 3, 3) lie flat on the scene's bounds: there they would fight with a wall."""
+    slack = 0.01 * np.linalg.norm(high - low)
+    return ((triangles - low < slack).all(axis=1) | (high - triangles < slack).all(axis=1)).any(axis=1)
