@@ -4,9 +4,9 @@ A family has TITLE, figures() and, if there is more to say than its table, notes
 A new one goes into FAMILIES.
 """
 
-from figures import continuation, escapes, exact, invalid, pictures, reproduced, sampling
+from figures import abandoned, continuation, escapes, exact, invalid, pictures, reproduced, sampling
 
-FAMILIES = (exact, sampling, pictures, escapes, continuation, invalid, reproduced)
+FAMILIES = (exact, sampling, pictures, escapes, continuation, invalid, reproduced, abandoned)
 
 
 def figures():

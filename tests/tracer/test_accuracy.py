@@ -2,7 +2,7 @@
 
 import pytest
 from accuracy import kept, line, lines_of, measure, page
-from figures import FAMILIES, figures
+from figures import FAMILIES, abandoned, figures
 from truth import entry, keys
 
 ALL = {figure.key: figure for figure in figures()}
@@ -25,6 +25,16 @@ def furnace(brighter):
     for key in keys("albedo.ggx."):
         value = entry(key)[1]
         found[f"mean {key}"], found[f"square {key}"] = 100 * brighter * value, (100 * 5e-4 * value) ** 2
+    return found
+
+
+def homework(bugs, floor):
+    """What 10,000 samples find of the abandoned castRay's bugs where the floor is brighter by a factor."""
+    ratios = abandoned.MEASURED.get(bugs, (1.0,) * 5)
+    found = {}
+    for name, ratio in zip(abandoned.REGIONS, ratios, strict=True):
+        found |= {f"right {name}": 1.0, f"wrong {name}": ratio * (floor if name == "floor" else 1.0)}
+        found |= {f"samples {name}": 10_000, f"beyond {name}": 0.0, f"square {name}": 1e6}
     return found
 
 
@@ -63,6 +73,9 @@ def test_what_is_done_is_not_done_again(tmp_path):
         ("white-furnace-ggx-64", furnace(1.003)),
         ("invalid-32", {"dropped": 1, "negative": 0}),
         ("invalid-64", {"dropped": 0, "negative": 1}),
+        ("abandoned-D06", homework("D06", 1.06)),
+        ("abandoned-D01", homework("D01", 0.84)),
+        ("abandoned-E01-D01", homework("E01,D01", 1.0) | {"beyond floor": 4100.0}),
         ("same-paths", {"same a": 99.8, "difference a": 0.0}),
         ("same-paths-flat", {"same a": 100.0, "difference a": 1.1e-3}),
     ],
