@@ -53,7 +53,7 @@ def _camera(v, scene, say):
 
 
 def _hit(v, scene, say):
-    text = say("caption.hit", shape=_name("shape", v["shape"], scene), t=short(v["t"]))
+    text = say("caption.hit", shape=named("shape", v["shape"], scene), t=short(v["t"]))
     if not np.any(v["Le"] > 0):
         return say.sentences(text, _through(v, say))
     counted = "caption.hit.adds" if v["w"] > 0 else "caption.hit.counted_elsewhere"
@@ -78,8 +78,8 @@ def _light(v, scene, say):
     outcome = light_outcome(v)
     text = say(
         f"caption.light.{outcome}",
-        light=_name("light", v["light"], scene),
-        blocker=_name("shape", v["blocker"], scene),
+        light=named("light", v["light"], scene),
+        blocker=named("shape", v["blocker"], scene),
         distance=short(v["distance"]),
         at=short(v["blocker_distance"]),
         w=short(v["w"]),
@@ -139,9 +139,10 @@ def why_dead(path, scene, say):
 
 
 def _reason(v, scene, say):
-    return say(f"dead.light.{light_outcome(v)}", blocker=_name("shape", v["blocker"], scene))
+    return say(f"dead.light.{light_outcome(v)}", blocker=named("shape", v["blocker"], scene))
 
 
-def _name(domain, value, scene):
+def named(domain, value, scene):
+    """The name that a number stands for in one of the scene's TABLES."""
     names = TABLES[domain](scene)
     return names[int(value)] if 0 <= int(value) < len(names) else "?"

@@ -42,9 +42,8 @@ class Product:
     @property
     def value(self):
         """What the factors give, in float64."""
-        top = np.prod([np.broadcast_to(np.asarray(f.value, float), 3) for f in self.over], axis=0)
-        bottom = np.prod([np.broadcast_to(np.asarray(f.value, float), 3) for f in self.under], axis=0)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(all="ignore"):
+            top, bottom = _times(self.over), _times(self.under)
             return np.where(top == 0, 0.0, top / bottom)
 
     @property
@@ -53,11 +52,18 @@ class Product:
         return bool(np.allclose(self.value, np.asarray(self.recorded, float), rtol=WORTH_SAYING, atol=1e-12))
 
 
+def _times(factors):
+    """The product (3,) of factors, in float64."""
+    product = np.ones(3)
+    for factor in factors:
+        product = product * np.asarray(factor.value, float)
+    return product
+
+
 def formulas(path, index, settings, say):
     """Everything the equation panel shows for one event, ready to send."""
     event = path.events[index]
-    make = PRODUCTS.get(event.kind.name)
-    product = make and make(event.values, throughput(path.events, index - 1))
+    product = product_of(path, index)
     if not product:
         return {
             "symbolic": _special(path, event),
@@ -77,6 +83,13 @@ def formulas(path, index, settings, say):
         "legend": [_explained(factor, path, event.kind, say) for factor in factors],
         "weight": _weight(event, settings, say),
     }
+
+
+def product_of(path, index):
+    """The Product that an event of a path works out, None where there is none."""
+    event = path.events[index]
+    make = PRODUCTS.get(event.kind.name)
+    return make and make(event.values, throughput(path.events, index - 1))
 
 
 def _traced(product, path, index):
@@ -153,7 +166,7 @@ def _roulette(v, beta):
     q = np.asarray(v["probability"], float)
     return Product(
         r"\beta' = ",
-        (Factor(r"\beta", "beta", np.asarray(v["beta"], float) * q),),
+        (Factor(r"\beta", "beta", beta),),
         (Factor("q", "probability", q),),
         v["beta"],
     )

@@ -11,12 +11,14 @@ from viewer.link import Link
 
 
 def inspect_command(scene, settings, place, changes=None, supposed=None):
-    """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for.
+    """`castray inspect` of the path at (x, y, sample, step) of a scene, by the name it was asked for; of all
+    paths of the pixel where sample is None.
 
     changes: of the scene's words, {key: value}; supposed: of the path, {(depth, kind): value}.
     """
     x, y, sample, _ = place
-    words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y} --sample {sample}"]
+    words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y}"]
+    words += [] if sample is None else [f"--sample {sample}"]
     words.append(f"--size {settings.width} {settings.height}")
     for f in fields(Settings):
         value = getattr(settings, f.name)

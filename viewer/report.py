@@ -8,6 +8,8 @@ from rich.text import Text
 
 from tracer.testing.errorbars import NO_ERROR
 from viewer.caption import applies, caption, shown, why_dead
+from viewer.understanding.waterfall import bar_name, waterfall
+from viewer.understanding.why import why
 from viewer.words import Speaker
 
 _LEDGER_KINDS = ("hit", "light", "escape")
@@ -15,14 +17,36 @@ _LEDGER_KINDS = ("hit", "light", "escape")
 
 def print_pixel(record, scene, console=None):
     """The pixel's samples, its brightest path event by event, and both sums."""
-    console = console or Console(highlight=False, soft_wrap=True)
-    say = Speaker()
-    settings = record.settings
-    about = {name: getattr(settings, name) for name in ("width", "height", "integrator", "seed")}
-    console.print(say("inspect.head", x=record.x, y=record.y, scene=scene.name, **about) + "\n")
+    console, say = _begun(record, scene, console)
     chosen = max(record.paths, key=lambda path: float(np.sum(path.radiance, dtype=np.float64)))
     _print_path(chosen, scene, say, console)
     _print_samples(record, chosen, say, console)
+
+
+def print_why(record, scene, console=None):
+    """Why the pixel is what it is, in sentences, and what it is made of."""
+    console, say = _begun(record, scene, console)
+    for reason in why(record, scene):
+        line = Text("- " + reason.sentence(say))
+        if reason.place:
+            path, event = reason.place
+            seen = say("why.see", path=record.paths[path].sample, event=event)
+            line.append(f"  ({seen})", style="dim")
+        console.print(line)
+    table = _table("made_of", ("what", "red", "green", "blue"), "what", say)
+    for bar in waterfall(record):
+        table.add_row(bar_name(bar, say), *(f"{float(v):.8g}" for v in bar.value))
+    table.add_row(say("inspect.sum"), *(str(v) for v in record.value), style="bold")
+    console.print()
+    console.print(table)
+
+
+def _begun(record, scene, console):
+    """The console, with the head of a report on it, and the words."""
+    console, say = console or Console(highlight=False, soft_wrap=True), Speaker()
+    about = {name: getattr(record.settings, name) for name in ("width", "height", "integrator", "seed")}
+    console.print(say("inspect.head", x=record.x, y=record.y, scene=scene.name, **about) + "\n")
+    return console, say
 
 
 def print_needs(features, console=None):

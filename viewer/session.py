@@ -170,6 +170,13 @@ class Session:
         changes = self.scene.definition.changes
         return inspect_command(self.scene.name, self.settings, place, changes, self.suppositions)
 
+    @property
+    def why_command(self):
+        """`castray inspect` that says why the pixel is what it is."""
+        place = self.cursor.x, self.cursor.y, None, None
+        changes = self.scene.definition.changes
+        return inspect_command(self.scene.name, self.settings, place, changes) + " --why"
+
     def _asked_settings(self):
         """The settings, the size left out where it is the scene's own."""
         s = self.settings

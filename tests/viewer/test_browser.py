@@ -323,7 +323,7 @@ def test_a_second_tab_takes_over_and_the_first_may_take_back(page, visit, small)
 def test_nothing_is_cut_off(page, size):
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.wait_for_timeout(300)
-    for tab in ("event", "equation", "ledger", "find", "doctor", "change", "what_if", "help"):
+    for tab in ("event", "equation", "ledger", "why", "find", "doctor", "change", "what_if", "help"):
         page.get_by_test_id(f"tab-{tab}").click()
         outside = page.evaluate(OUTSIDE)
         assert outside == []

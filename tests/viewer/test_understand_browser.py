@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from suite import castray
+from suite import said
 
 pytestmark = pytest.mark.browser
 
@@ -27,10 +27,8 @@ def page(serve, browser):
 
 @pytest.fixture(scope="module")
 def inspected():
-    """`castray inspect --json` of the pixel where every test starts."""
-    ran = castray("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--json")
-    assert ran.returncode == 0, ran.stderr
-    return json.loads(ran.stdout)
+    """`castray inspect --why --json` of the pixel where every test starts."""
+    return json.loads(said("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--why", "--json"))
 
 
 @pytest.fixture(autouse=True)
@@ -91,3 +89,13 @@ def test_a_factor_leads_to_the_event_that_made_it(page, inspected):
     page.locator("[data-testid=equation-symbolic] .from").nth(1).click()
     hit = next(e for e in events if e["kind"] == "hit" and e["depth"] == 1)
     stands_at(page, 0, hit["step"])
+
+
+def test_the_reasons_are_those_of_the_command_and_lead_to_their_events(page, inspected):
+    page.get_by_test_id("tab-why").click()
+    reasons = inspected["why"]
+    assert page.locator("[data-testid^='reason-']").all_inner_texts() == [r["sentence"] for r in reasons]
+    for k, reason in enumerate(reasons):
+        page.get_by_test_id(f"reason-{k}").click()
+        stands_at(page, reason["path"], reason["event"])
+    assert page.get_by_test_id("why-command").inner_text().endswith("--why")

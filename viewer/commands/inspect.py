@@ -17,6 +17,7 @@ def inspect(
     pixel: Annotated[tuple[int, int], Parameter(converter=two_whole, n_tokens=2)],
     sample: Annotated[int | None, Whole] = None,
     what_if: Annotated[tuple[str, ...], Parameter(negative=())] = (),
+    why: Annotated[bool, Parameter(negative=())] = False,
     options: PathOptions | None = None,
     json: Json = False,
 ):
@@ -33,6 +34,9 @@ def inspect(
     what_if
         Show the sample as it would be: DEPTH.KIND=VALUE, as in 1.bounce=30,45 (degrees off the normal and
         about it), 0.light=0.2,0.3,0.9 (random numbers of the light sample), 4.roulette=survive (or stop).
+    why
+        Say instead why the pixel is black, or what it is: reasons in sentences, the nearest to a cause first,
+        and what it is made of by depth and technique; with --json both beside the rest.
     """
     settings, steps = settings_and_steps(options)
     loaded = scene_of(scene, options)
@@ -44,8 +48,19 @@ def inspect(
         record = tracer.inspect(loaded, settings, *pixel, sample, steps)
     prepared = loaded.at(record.settings)
     if json:
-        print_json(record.as_dict(prepared))
+        print_json(record.as_dict(prepared) | (_reasons(record, prepared) if why else {}))
         return
-    from viewer.report import print_pixel
+    from viewer.report import print_pixel, print_why
 
-    print_pixel(record, prepared)
+    (print_why if why else print_pixel)(record, prepared)
+
+
+def _reasons(record, scene):
+    """What --why adds to the document."""
+    from viewer.understanding.waterfall import waterfall
+    from viewer.understanding.why import why
+    from viewer.words import Speaker
+
+    say = Speaker()
+    bars = [bar.as_dict() for bar in waterfall(record)]
+    return {"why": [reason.as_dict(say) for reason in why(record, scene)], "made_of": bars}

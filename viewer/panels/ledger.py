@@ -5,7 +5,7 @@ import numpy as np
 from tracer.recorder import number
 from viewer.numerals import css, luminance, several
 from viewer.panels.panel import Panel
-from viewer.understanding.waterfall import DEEP, carried, waterfall
+from viewer.understanding.waterfall import bar_name, carried, waterfall
 
 TEMPLATE = """
 <div class="ledger" data-testid="ledger">
@@ -54,12 +54,6 @@ def show(session, say):
         "path_adds_up": path_adds_up,
         "path_check": say("ledger.exact" if path_adds_up else "ledger.differs", other=several(carried(path))),
     }
-
-
-def bar_name(bar, say):
-    """What a Bar of the waterfall is called."""
-    key = f"ledger.{bar.kind}"
-    return say(f"{key}.deep" if bar.depth == DEEP else key, depth=bar.depth, n=bar.events)
 
 
 def _drawn(bars, say):

@@ -59,6 +59,12 @@ def waterfall(record):
     return (*bars, Bar(ROUNDING, None, rest, 0, None)) if any(rest) else tuple(bars)
 
 
+def bar_name(bar, say):
+    """What a Bar of the waterfall is called."""
+    key = f"ledger.{bar.kind}"
+    return say(f"{key}.deep" if bar.depth == DEEP else key, depth=bar.depth, n=bar.events)
+
+
 def carried(path):
     """The contributions of a path (3,), added in the order they came, in the path's own precision."""
     added = np.zeros_like(path.radiance)
