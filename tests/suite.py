@@ -7,6 +7,7 @@ from contextlib import redirect_stdout, suppress
 from io import StringIO
 from pathlib import Path
 
+import forked
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -26,16 +27,20 @@ def missing(part):
 
 def castray(*words, cwd=ROOT, env=None, timeout=300):
     """`castray WORDS` as this checkout has it, run to its end in `cwd`."""
+    words = [str(word) for word in words]
+    env = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "PYTHONSAFEPATH": "1",
+        "PYTHONIOENCODING": "utf-8",
+        **(env or {}),
+    }
+    if forked.HERE:
+        return forked.run(words, cwd, env, timeout)
     return subprocess.run(
-        [sys.executable, "-c", "import sys; from viewer.cli import main; sys.exit(main())", *map(str, words)],
+        [sys.executable, "-c", "import sys; from viewer.cli import main; sys.exit(main())", *words],
         cwd=cwd,
-        env={
-            **os.environ,
-            "PYTHONPATH": str(ROOT),
-            "PYTHONSAFEPATH": "1",
-            "PYTHONIOENCODING": "utf-8",
-            **(env or {}),
-        },
+        env=env,
         capture_output=True,
         encoding="utf-8",
         timeout=timeout,

@@ -24,7 +24,7 @@ import tracer
 from tracer.engine import waves
 from tracer.shape.rays import Rays
 
-DEAR = ("start", "whole", "pick")
+DEAR = ("start", "whole", "pick", "recorder", "samplers", "triangles")
 TIMELESS = ("slopes", "rectangles")
 TRUTH = np.linspace(0.1, 1.0, 16 * 16 * 3).reshape(16, 16, 3)
 

@@ -40,6 +40,7 @@ def test_json_has_what_the_list_has_and_more():
     assert one["family"] == "Light samples" and one["settings"]["jitter"] is False
 
 
+@pytest.mark.slow
 def test_a_thumbnail_has_the_wrong_picture_beside_the_right_one(tmp_path):
     done = castray("bugs", "D04", "--thumbnails", tmp_path)
     assert done.returncode == 0, done.stderr

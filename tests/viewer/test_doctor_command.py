@@ -9,6 +9,7 @@ SMALL = ("--size", 16, 16, "--spp", 4, "--integrator", "direct")
 NARROW = {"COLUMNS": "80"}
 
 
+@pytest.mark.slow
 def test_a_right_tracer_is_found_right():
     ran = castray("doctor", "cornell_unit", *SMALL, env=NARROW)
     assert ran.returncode == 0, ran.stderr
@@ -31,6 +32,7 @@ def test_a_wrong_one_is_told_by_its_name_with_both_numbers_in_80_columns():
     assert max(map(len, ran.stdout.splitlines())) <= 80
 
 
+@pytest.mark.slow
 def test_json_is_one_document_that_says_all_of_it():
     ran = castray("doctor", "cornell", *SMALL, "--bug", "E01", "--json")
     said = json.loads(ran.stdout)
