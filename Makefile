@@ -3,6 +3,7 @@
 # make accuracy: measures and writes ACCURACY.md.  make peers: compares with Mitsuba, likewise.  make clean.
 # make doctor-table: which bugs of the zoo the doctor names, into DOCTOR.md.
 # make false-alarms: how often it finds something in right traces, into DOCTOR.md.
+# make lessons: the lessons as web pages, into .lessons/ (OPTIONS=--no-solutions leaves those out).
 # make bench: measures and writes BENCHMARKS.md.  make race: the part of it with Mitsuba.
 
 PYTHON ?= python3
@@ -14,7 +15,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds accuracy peers bench race doctor-table false-alarms clean system
+.PHONY: run test quick check format seeds accuracy peers lessons bench race doctor-table false-alarms clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -54,6 +55,10 @@ false-alarms: .venv/.dev
 # The same scenes by castray and by Mitsuba 3. Half an hour; may be stopped and goes on where it was.
 peers: .venv/.peers
 	.venv/bin/python tests/peers.py
+
+# A minute or two. They open without a network, for teachers to host.
+lessons: .venv/.run
+	$(RUN) viewer.cli lesson --site .lessons $(OPTIONS)
 
 # A quarter of an hour on an idle machine; sections measured at this commit are not measured again.
 bench: .venv/.dev

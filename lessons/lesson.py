@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 
 from lessons.words import Words, split
 from tracer.settings import TracerError
@@ -39,6 +40,11 @@ class Formula:
     label: str
     function: str
     test: str
+
+    @property
+    def computed(self):
+        """The function itself. ImportError or AttributeError if there is none of that name."""
+        return resolve_name(self.function)
 
 
 @dataclass(frozen=True)

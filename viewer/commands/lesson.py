@@ -1,5 +1,6 @@
 """The command `castray lesson`."""
 
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -18,6 +19,8 @@ def lesson(
     check: Annotated[list[str] | None, Words] = None,
     hint: Annotated[str | None, Parameter(negative=())] = None,
     solution: Annotated[str | None, Parameter(negative=())] = None,
+    site: Path | None = None,
+    solutions: bool = True,
     json: Json = False,
 ):
     """The lessons: list them; with a number, read that one, or check an answer to one of its tasks.
@@ -35,11 +38,17 @@ def lesson(
         The next hint to a task.
     solution
         How a task is solved; try it first.
+    site
+        Write the lessons there as web pages that open without a network: all, or the one of that number.
+    solutions
+        Whether the pages say how tasks are solved.
     """
     from lessons.course import lesson as of
     from lessons.course import lessons
     from lessons.progress import Progress
 
+    if site is not None:
+        return _site(site, None if number is None else [of(number).number], solutions, json)
     progress = Progress()
     if number is None:
         if check or hint or solution:
@@ -56,6 +65,20 @@ def lesson(
     if hint or solution:
         return (_hint if hint else _solution)(run, hint or solution, progress, json)
     return _show(run, progress, json)
+
+
+def _site(folder, numbers, solutions, json):
+    """Write the pages, and say where they begin."""
+    from viewer.progress import watched
+    from viewer.site import build
+
+    with watched(Speaker()("site.making")) as progress:
+        names = build(folder, numbers, solutions, progress=progress)
+    if json:
+        print_json({"folder": str(folder), "pages": names})
+    else:
+        first = folder / "index.html"
+        print(Speaker()("site.written", n=len(names), folder=folder, first=first))
 
 
 def _console():

@@ -1,0 +1,97 @@
+"""The course as web pages: they open from a file and ask for nothing; what they list is all there is."""
+
+import inspect
+import re
+from functools import cache
+
+import pytest
+
+import tracer
+from lessons.course import lesson, lessons
+from viewer.cli import main
+from viewer.site import build, formula_map, frame, log_format, reference
+from viewer.site.build import lesson_pages
+from viewer.words import LANGUAGES, Speaker
+
+SMALL = 2  # a lesson whose pictures are small
+
+
+@cache
+def pages_of(solutions):
+    return lesson_pages(SMALL, solutions)
+
+
+@cache
+def page(name):
+    """A page that is no lesson."""
+    made = {"reference.html": reference.page, "log-format.html": log_format.page}
+    return made[name]() if name in made else formula_map.page(Speaker(name))
+
+
+@pytest.mark.browser
+def test_a_lesson_opens_from_a_file_and_asks_for_nothing(tmp_path, visit):
+    names = build(tmp_path, [SMALL])
+    assert {"index.html", "index.zh.html", "lesson-02.html", "lesson-02.zh.html"} <= set(names)
+    tab = visit((tmp_path / "lesson-02.html").as_uri(), ready=False)
+    tab.locator(".castray-3d[data-place=start]").wait_for()
+    assert [address for address in tab.asked if not address.startswith("data:")] == [tab.url]
+    assert tab.evaluate("document.fonts.ready.then(() => document.fonts.check('17px \"STIX Two Math\"'))")
+    link = tab.locator("article a[href^='#place-']").last
+    link.click()
+    place = link.get_attribute("href").removeprefix("#place-")
+    tab.locator(f".castray-3d[data-place='{place}']").wait_for()
+    assert place in lesson(SMALL).moments
+    assert "castray view '#scene=" in tab.locator("#command").inner_text()
+    tab.get_by_role("link", name="中文").click()
+    assert lesson(SMALL).words["zh"].title in tab.title()
+    assert tab.errors == []
+
+
+def test_solutions_are_on_the_pages_only_where_they_are_asked_for():
+    for solutions in (True, False):
+        for tag in LANGUAGES:
+            text = pages_of(solutions)[frame.named(f"lesson-{SMALL:02}", tag)]
+            assert (f"<summary>{Speaker(tag)('lesson.solution')}</summary>" in text) == solutions
+            assert text.count('class="task"') == len(lesson(SMALL).tasks)
+            assert "{{" not in text and ":::" not in text
+
+
+def test_every_link_of_the_pages_leads_to_a_page_that_is_built():
+    known = {"reference.html", "log-format.html"}
+    stems = ["index", "formulas", *(f"lesson-{number:02}" for number in lessons())]
+    known |= {frame.named(stem, tag) for stem in stems for tag in LANGUAGES}
+    texts = [*pages_of(True).values(), *map(page, ("reference.html", "log-format.html", "en", "zh"))]
+    for text in texts:
+        targets = re.findall(r'href="(?!data:)([^"#]*)(?:#[^"]*)?"', text)
+        assert {target for target in targets if target} <= known
+
+
+@pytest.mark.parametrize("tag", LANGUAGES)
+def test_the_map_has_every_formula_with_its_function_and_its_test(tag):
+    text, anchors = page(tag), set(re.findall(r'id="([^"]+)"', page("reference.html")))
+    for it in lessons().values():
+        for label, formula in it.formulas.items():
+            assert f'id="{it.number:02}-{label}"' in text
+            assert f"<code>{formula.function}</code>" in text and formula.function in anchors
+            assert all(part in text for part in formula.test.split("::"))
+            assert f"{frame.named(f'lesson-{it.number:02}', tag)}#formula-{label}" in text
+
+
+def test_the_reference_has_every_public_name_with_its_words_and_its_source():
+    text = page("reference.html")
+    for name in tracer.__all__:
+        thing = getattr(tracer, name)
+        assert f'id="tracer.{name}"' in text
+        assert reference.said(thing) and reference.source(thing) in text
+    assert "Raises TracerError" in inspect.getdoc(tracer.load) and "<b>errors</b>" in text
+    for kind in ("hit", "light", "bounce"):
+        assert f'id="event-{kind}"' in text
+
+
+def test_a_folder_that_cannot_be_made_is_one_line(tmp_path, capsys):
+    (tmp_path / "file").write_text("in the way", encoding="utf-8")
+    with pytest.raises(SystemExit) as ended:
+        main(["lesson", "2", "--site", str(tmp_path / "file" / "site")])
+    said = capsys.readouterr()
+    assert ended.value.code == 2 and said.out == ""
+    assert said.err.count("\n") == 1 and "cannot be written" in said.err
