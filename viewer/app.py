@@ -12,21 +12,34 @@ from lessons.course import lesson
 from tracer.scene_file.change import changed
 from tracer.settings import TracerError
 from viewer import link as links
+from viewer.comparing import rival
 from viewer.security import STATIC, Door, files, page, restrict
 from viewer.session import Session
 from viewer.words import Speaker
 
 
 def serve(
-    scene, settings, port=None, open_browser=True, start=None, recording=None, what_if=None, lesson=None
+    scene,
+    settings,
+    port=None,
+    open_browser=True,
+    start=None,
+    recording=None,
+    what_if=None,
+    lesson=None,
+    against=None,
 ):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
     start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of; what_if:
-    suppositions about the path there; lesson: the number of one to be read. TracerError where port or place
-    will not do.
+    suppositions about the path there; lesson: the number of one to be read; against: what the picture is
+    compared with, a bug's id or a file. TracerError where port or place will not do.
     """
+    there = None if against is None or rival.known(against) else rival.of_file(against)
+    if there is not None:
+        settings = rival.fitted(settings, there)
     session = Session(scene, settings, Scenes(scene).find, recording)
+    session.against, session.rivals = against or "", {against: there} if there else {}
     try:
         session.stand(start)
         session.suppose(what_if or {})
@@ -41,11 +54,11 @@ def serve_lesson(number, port=None, open_browser=True):
     serve(tracer.load(start.scene), start.settings, port, open_browser, start.place, lesson=number)
 
 
-def serve_link(text, port=None, open_browser=True):
+def serve_link(text, port=None, open_browser=True, against=None):
     """Open the viewer where a link points."""
     asked = links.parse(text)
     scene = changed(Scenes().find(asked.scene), asked.changes)
-    serve(scene, asked.settings, port, open_browser, asked.place, what_if=asked.what_if)
+    serve(scene, asked.settings, port, open_browser, asked.place, what_if=asked.what_if, against=against)
 
 
 class Scenes:

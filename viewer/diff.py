@@ -105,11 +105,11 @@ def drawing(a, b, verdict):
     pictures are drawn with larger pixels.
     """
     if verdict.z is not None:
-        signed = [_largest(verdict.z.z) / FULL, _largest(verdict.z.local_Z) / FULL]
+        signed = [largest(verdict.z.z) / FULL, largest(verdict.z.local_Z) / FULL]
     else:
         one, two = (to_srgb(p.rgb) / 255.0 if verdict.errors.unit == "sRGB" else p.rgb for p in (a, b))
         with np.errstate(all="ignore"):
-            signed = [_largest(one.astype(np.float64) - two) / max(verdict.errors.most, 1e-300)]
+            signed = [largest(one.astype(np.float64) - two) / max(verdict.errors.most, 1e-300)]
     odd = ~np.isfinite(a.rgb).all(axis=2) | ~np.isfinite(b.rgb).all(axis=2)
     panels = [np.where(odd[..., None], ODD, _colours(values)) for values in signed]
     height, width = odd.shape
@@ -121,7 +121,7 @@ def drawing(a, b, verdict):
     return np.concatenate((rgb, np.zeros((GAP, rgb.shape[1], 3)), bar)).astype(np.float32)
 
 
-def _largest(values):
+def largest(values):
     """Of three channels (H, W, 3) the value furthest from 0, with its sign; 0 where none is a number."""
     values = np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0)
     place = np.argmax(np.abs(values), axis=2)[..., None]

@@ -24,7 +24,8 @@ FRAME = """
       <li><i class="walked"></i>{{ w.legend_walked }}</li><li><i class="ahead"></i>{{ w.legend_ahead }}</li>
       <li><i class="others"></i>{{ w.legend_others }}</li><li><i class="lit">━●</i>{{ w.legend_lit }}</li>
       <li><i class="blocked">╍✕</i>{{ w.legend_blocked }}</li><li><i class="idle">┄</i>{{ w.legend_idle }}</li>
-      <li v-if="supposing" data-testid="legend-what-if"><i class="what_if">╍●</i>{{ w.legend_what_if }}</li>
+      <li v-if="companions.what_if" data-testid="legend-what-if"><i class="what_if">╍●</i>{{ w.legend_what_if }}</li>
+      <li v-if="companions.twin" data-testid="legend-twin"><i class="twin">╍●</i>{{ w.legend_twin }}</li>
     </ul>
     <p v-if="!touched" class="hint" data-testid="hint">{{ w.hint }}</p>
   </section>

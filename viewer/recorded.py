@@ -8,7 +8,7 @@ from lessons.zoo import planted
 from tracer.trace import folder, reading
 from tracer.trace.fingerprint import differences
 from tracer.trace.stored_scene import restore
-from viewer import app, link
+from viewer import link
 
 
 def is_recording(text):
@@ -17,8 +17,10 @@ def is_recording(text):
     return path.is_dir() and (text not in tracer.built_in_scenes() or (path / folder.HEADER).exists())
 
 
-def serve_recording(text, port=None, open_browser=True):
+def serve_recording(text, port=None, open_browser=True, against=None):
     """Open the viewer on a recording, at the place named behind its # or at its first path."""
+    from viewer import app  # which itself looks at recordings
+
     name, _, words = text.partition("#")
     place = folder.whole(name)
     start = link.parse(f"scene=recorded&{words}").place if words else (0, 0, 0, 0)
@@ -27,7 +29,7 @@ def serve_recording(text, port=None, open_browser=True):
         said = compared(place, scene, *start[:2])
         if said:
             print(f"castray: {said}", file=sys.stderr)
-    app.serve(scene, place.settings, port, open_browser, start, place)
+    app.serve(scene, place.settings, port, open_browser, start, place, against=against)
 
 
 def compared(place, scene, x, y):

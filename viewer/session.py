@@ -40,6 +40,7 @@ class Session:
 
     def __init__(self, scene, settings, load, recording=None):
         self.load, self.desk, self.shelf = load, {}, {}
+        self.rivals, self.against = {}, ""  # what may be compared with beside tracers, by name; what is
         self.adopt(scene, settings)
         self.at_start = self.settings
         self.recording = recording

@@ -3,6 +3,9 @@
 Nothing is rendered here: the browser draws. Every layer keeps its mesh, and new data is copied into it.
 """
 
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -10,8 +13,22 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
+from viewer.solids import EMPTY
 from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint
 from viewer.traces import Strokes
+
+COMPANIONS = ("what_if", "twin")  # paths beside the selected one
+
+
+@dataclass(frozen=True)
+class Companion:
+    """A path drawn beside the selected one, from its event `since` on; word: marks the place `at`, or where
+    its way leaves the other's."""
+
+    path: Any
+    word: str
+    since: int = 0
+    at: list | None = None
 
 
 class Layer:
@@ -119,16 +136,20 @@ class Stage:
         eye.SetViewUp(*self.camera["viewUp"])
         eye.SetViewAngle(VIEW_ANGLE)
 
-    def draw(self, record, cursor, level, supposed=None, word=""):
-        """Show the pixel's paths and the current event; level says what changed. supposed: the selected path
-        as it would be, drawn beside it and marked by the word."""
+    def draw(self, record, cursor, level, beside=None):
+        """Show the pixel's paths and the current event; level says what changed. beside: paths drawn beside
+        the selected one, {one of COMPANIONS: Companion}."""
+        beside = beside or {}
         path = record.paths[cursor.path]
         drawn = self.strokes.event(path, cursor.event)
         if level != "event":
             drawn |= self.strokes.path(path) | self.strokes.others(record.paths, cursor.path)
-            drawn |= self.strokes.what_if(supposed)
+            for name in COMPANIONS:
+                there = beside.get(name)
+                drawn[name] = self.strokes.companion(there.path, there.since) if there else EMPTY
         for name, (points, cells) in drawn.items():
             self.layers[name].show(points, cells)
         self.labels = self.strokes.labels(path, cursor.event)
-        if supposed is not None:
-            self.labels.append({"text": word, "layer": "what_if", "at": self.strokes.parting(path, supposed)})
+        for name, there in beside.items():
+            at = there.at or self.strokes.parting(path, there.path)
+            self.labels.append({"text": there.word, "layer": name, "at": at})

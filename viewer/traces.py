@@ -46,22 +46,20 @@ class Strokes:
                 parts["idle"].append(solids.dashes(p, q, 0.7 * self.thin, 3 * self.thin))
         return {name: solids.merge(*some) for name, some in parts.items()}
 
-    def what_if(self, path):
-        """A path that is only supposed, dashed, with the lamps it would see; nothing for None."""
-        if path is None:
-            return {"what_if": solids.EMPTY}
-        line, dash = vertices(path, self.size), 5 * self.thick
+    def companion(self, path, since=0):
+        """A path beside the selected one, dashed, with the lamps it sees, from an event on."""
+        line, dash = vertices(path, self.size)[vertices_until(path, since) :], 5 * self.thick
         parts = [
             solids.dashes(a, b, 0.9 * self.thick, dash) for a, b in zip(line[:-1], line[1:], strict=True)
         ]
-        for hit, sample in light_samples(path):
+        for hit, sample in light_samples(path, since):
             if light_outcome(sample) == "lit":
                 p, q = np.asarray(hit["p"], float), np.asarray(sample["q"], float)
                 parts += [
                     solids.dashes(p, q, 1.1 * self.thin, 3 * self.thick),
                     solids.balls(q, 2.5 * self.thin),
                 ]
-        return {"what_if": solids.merge(*parts, solids.balls(line[1:], 1.8 * self.thick))}
+        return solids.merge(*parts, solids.balls(line[1:], 1.8 * self.thick))
 
     def parting(self, path, other):
         """A place on another path where it has left this one, or else on its first light sample that fell
@@ -149,6 +147,7 @@ def here(path, index):
     return path.events[0].values["o"] if hit is None else hit["p"]
 
 
-def light_samples(path):
-    """Every light sample of a path with the surface it was taken from."""
-    return [(last_hit(path, k), e.values) for k, e in enumerate(path.events) if e.kind.name == "light"]
+def light_samples(path, since=0):
+    """Every light sample of a path, from an event on, with the surface it was taken from."""
+    samples = ((k, e) for k, e in enumerate(path.events) if e.kind.name == "light" and k >= since)
+    return [(last_hit(path, k), e.values) for k, e in samples]

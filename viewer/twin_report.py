@@ -1,15 +1,13 @@
 """What a twin run found, as text."""
 
-import numpy as np
 from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
 from lessons.zoo import several
-from tracer.twin.parting import DEPTH, KIND, MISSING
-from viewer.caption import shown
 from viewer.numerals import luminance
 from viewer.twin_shares import decimals_of, print_shares, short_names, table
+from viewer.twin_words import event_of, in_digits, kind_of, told_apart, what_differs
 from viewer.words import Speaker
 from viewer.zoo import title_of
 
@@ -95,7 +93,7 @@ def _print_causes(twin, names, bug, say, console):
     for cause in twin.causes[:_CAUSES]:
         brought = [f"{v:+.{decimals}f}" for v in cause.difference or ()] or ["", "", ""]
         depths = _range(cause.depths, say)
-        rows.add_row(_event(cause.kinds, say), _also(cause, say), str(cause.pairs), depths, *brought)
+        rows.add_row(event_of(cause.kinds, say), _also(cause, say), str(cause.pairs), depths, *brought)
     console.print(rows)
     rest = twin.causes[_CAUSES:]
     if rest:
@@ -106,23 +104,10 @@ def _print_causes(twin, names, bug, say, console):
     console.print()
 
 
-def _kind(kind, say):
-    return say("twin.nothing") if kind is None else say(f"kind.{kind}")
-
-
-def _event(kinds, say):
-    return " / ".join(dict.fromkeys(_kind(kind, say) for kind in kinds))
-
-
-def _what(what, say):
-    known = {KIND: "twin.another", MISSING: "twin.over", DEPTH: "twin.depth"}
-    return say(known[what]) if what in known else what
-
-
 def _also(cause, say):
     """What differs first, and what else does in most of the pairs."""
     others = [name for name, count in cause.also.items() if 2 * count >= cause.pairs]
-    what = _what(cause.what, say)
+    what = what_differs(cause.what, say)
     return say("twin.then", field=what, others=say.listed(*others)) if others else what
 
 
@@ -135,7 +120,7 @@ def _place(parting, say):
     """Where a pair parts, as words take it."""
     step, depth = (next(v for v in of_both if v is not None) for of_both in (parting.steps, parting.depths))
     where = {name: getattr(parting, name) for name in ("x", "y", "sample")}
-    return where | {"step": step, "depth": depth, "event": _event(parting.kinds, say)}
+    return where | {"step": step, "depth": depth, "event": event_of(parting.kinds, say)}
 
 
 def _print_example(parting, names, sides, say, console):
@@ -145,12 +130,12 @@ def _print_example(parting, names, sides, say, console):
     short = short_names(names, say)
     rows = [("", *short, "")]
     if not parting.numbers:
-        rows.append((say("twin.event"), *(_kind(kind, say) for kind in parting.kinds), ""))
+        rows.append((say("twin.event"), *(kind_of(kind, say) for kind in parting.kinds), ""))
     for n in parting.numbers:
         meaning = say.optional(f"field.{parting.kinds[0]}.{n.field.name}", n.field.meaning)
-        rows.append((n.field.name, *_told_apart(n, sides, say), meaning))
+        rows.append((n.field.name, *told_apart(n, [side.trace.scene for side in sides], say), meaning))
     if parting.radiance is not None and parting.what != "radiance":
-        rows.append((say("twin.radiance"), *(_digits(v, 5) for v in parting.radiance), say("twin.of_path")))
+        rows.append((say("twin.radiance"), *(in_digits(v, 5) for v in parting.radiance), say("twin.of_path")))
     _print_columns(rows, parting.what, console)
     for name, side, step in zip(short, sides, parting.steps, strict=True):
         for command in side.commands(parting.place(step)):
@@ -173,23 +158,6 @@ def _print_columns(rows, what, console):
         console.print(line, soft_wrap=True)
 
 
-def _told_apart(differing, sides, say):
-    """Both values of a Number with so many digits that they are not printed alike."""
-    field = differing.field
-    if np.asarray(differing.values[0]).dtype.kind != "f":
-        scenes = (side.trace.scene for side in sides)
-        return [shown(field, v, scene, say) for v, scene in zip(differing.values, scenes, strict=True)]
-    for digits in (5, 9, 17):
-        values = [_digits(v, digits) for v in differing.values]
-        if values[0] != values[1]:
-            break
-    return values
-
-
-def _digits(values, digits):
-    return " ".join(f"{float(v):.{digits}g}" for v in np.ravel(values))
-
-
 def _print_largest(twin, sides, say, console):
     """More pairs, a line each, with a command."""
     if len(twin.largest) < 2:
@@ -199,7 +167,7 @@ def _print_largest(twin, sides, say, console):
         values = "?"
         if parting.radiance is not None:
             values = " -> ".join(f"{luminance(v):.5g}" for v in parting.radiance)
-        said = say("twin.other", values=values, what=_what(parting.what, say), **_place(parting, say))
+        said = say("twin.other", values=values, what=what_differs(parting.what, say), **_place(parting, say))
         console.print(Text(said))
         for command in sides[1].commands(parting.place(parting.steps[1]))[-1:]:
             console.print(Text(f"  {command}", style="cyan"), soft_wrap=True)

@@ -3,11 +3,15 @@
 import asyncio
 from dataclasses import fields
 
+import numpy as np
+
 from tracer.settings import Settings
+from viewer.comparing.comparer import beside
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
 from viewer.render import Painter
-from viewer.stage import Stage
+from viewer.stage import Companion, Stage
+from viewer.traces import here
 from viewer.words import LANGUAGES, Speaker
 
 PLAY_SECONDS = 0.8
@@ -21,6 +25,7 @@ class Window:
         self.server, self.state, self.session, self.say = server, server.state, session, say
         self.stage = Stage(session.scene)
         self.painter, self.playing, self.rendered, self.loop = None, None, None, None
+        self.followers = []  # told when a picture is begun() and when it has been painted() further
         self._build()
         self.refresh("picture")
 
@@ -42,9 +47,18 @@ class Window:
 
         server, state = self.server, self.state
         languages = [{"tag": tag, "name": name} for tag, name in LANGUAGES.items()]
-        state.client_only("tab", "exposure")
+        state.client_only("tab", "exposure", "wipe")
         first_tab = next(p.name for p in all_panels() if p.place == "tab")
-        state.update({"tab": first_tab, "exposure": 0, "owner": "", "touched": False, "languages": languages})
+        state.update(
+            {
+                "tab": first_tab,
+                "exposure": 0,
+                "wipe": 0.5,
+                "owner": "",
+                "touched": False,
+                "languages": languages,
+            }
+        )
         self._put_words()
         state.update(
             {
@@ -53,6 +67,7 @@ class Window:
                 "playing": False,
                 "rgb": b"",
                 "overlay_values": b"",
+                "rival_rgb": b"",
                 "camera": self.stage.camera,
             }
         )
@@ -77,9 +92,8 @@ class Window:
         """Show again what depends on a level or on what follows from it."""
         changed = LEVELS[LEVELS.index(level) :]
         session, cursor = self.session, self.session.cursor
-        there = session.supposition
-        would = (there.path, self.say("what_if.label")) if there else ()
-        self.stage.draw(session.record, cursor, level, *would)
+        companions = self._companions()
+        self.stage.draw(session.record, cursor, level, companions)
         self._push_stage()
         for panel in all_panels():
             if panel.show and panel.level in changed:
@@ -89,11 +103,21 @@ class Window:
                 "path_index": cursor.path,
                 "event_index": cursor.event,
                 "labels": self.stage.labels,
-                "supposing": there is not None,
+                "companions": {name: True for name in companions},
                 "link": session.link.write(),
                 "header": self._header(),
             }
         )
+
+    def _companions(self):
+        """The paths to be drawn beside the selected one."""
+        there, twin = self.session.supposition, beside(self.session)
+        found = {"what_if": Companion(there.path, self.say("what_if.label"))} if there else {}
+        if twin is not None and twin.parting is not None:
+            since = twin.since
+            at = np.asarray(here(twin.path, since), float).tolist()
+            found["twin"] = Companion(twin.path, self.say("compare.label"), since, at)
+        return found
 
     def show(self, name):
         """Show one panel again."""
@@ -199,6 +223,8 @@ class Window:
 
         self.painter = painter
         painter.start(here(self._painted), here(self._progress), here(self._failed))
+        for follower in self.followers:
+            follower.begun()
 
     def stop_painting(self):
         """Give up the picture that is being rendered, if there is one."""
@@ -211,6 +237,8 @@ class Window:
         with self.state as state:
             state.rgb = picture.rgb.tobytes()
             self._tell_progress(None if complete else 0, spp)
+            for follower in self.followers:
+                follower.painted()
 
     def _progress(self, share, spp):
         with self.state:

@@ -222,3 +222,11 @@ def test_exact_sums_are_those_of_fractions(suite_seed):
     cell = rng.integers(0, 4, values.size)
     wanted = [sum(map(Fraction, values[cell == k].tolist())) for k in range(4)]
     assert exact_sums(cell, values, 4) == wanted
+
+
+def test_paths_that_gather_nothing_are_compared_too():
+    settings = tracer.Settings(width=8, height=8, spp=1)
+    corner = gather(loaded("cornell_unit"), settings, pixels=np.array([0]))  # beside the room
+    assert not corner.paths["radiance"].any()
+    found = compare(corner, corner)
+    assert found.same and found.told.shares == ()

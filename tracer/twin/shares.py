@@ -99,7 +99,7 @@ def _summed(terms, radiance, names, sound, known, eps):
     size = radiance.shape[1]
     added = np.stack([np.bincount(pair, channel, size) for channel in value])
     room = np.stack([np.bincount(pair, np.abs(channel), size) for channel in value])
-    room *= _ROUNDING * eps * (1 + np.bincount(pair, minlength=size))
+    room = room * _ROUNDING * eps * (1 + np.bincount(pair, minlength=size))
     with np.errstate(invalid="ignore"):
         near = (np.abs(radiance - added) <= room).all(axis=0)
     # Of each pair what its terms do not explain: its radiance less their sum, exactly.

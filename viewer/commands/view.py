@@ -14,6 +14,7 @@ def view(
     lesson: Annotated[int | None, Whole] = None,
     port: Annotated[int | None, Whole] = None,
     browser: bool = True,
+    compare: str | None = None,
     options: PathOptions | None = None,
 ):
     """Open the viewer: click a pixel, step through its paths. Prints its address.
@@ -30,6 +31,9 @@ def view(
         Where to listen on 127.0.0.1 (default: any free port).
     browser
         Open a browser where there is one.
+    compare
+        What the picture is compared with: a bug of the zoo, right (the tracer without a bug), a picture's
+        file (such as your own), or a recording's folder.
     """
     from viewer import app as viewer_app
     from viewer.recorded import is_recording, serve_recording
@@ -43,12 +47,12 @@ def view(
         return
     scene = "cornell_unit" if scene is None else scene
     if is_link(scene):
-        viewer_app.serve_link(scene, port, browser)
+        viewer_app.serve_link(scene, port, browser, compare)
         return
     if is_recording(scene):
         if options is not None:
             raise TracerError(f"{scene}: a recording has its own settings; leave out the path options")
-        serve_recording(scene, port, browser)
+        serve_recording(scene, port, browser, compare)
         return
     settings, _ = settings_and_steps(options)
-    viewer_app.serve(scene_of(scene, options), settings, port, browser)
+    viewer_app.serve(scene_of(scene, options), settings, port, browser, against=compare)

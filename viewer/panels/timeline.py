@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from viewer.comparing.comparer import beside
 from viewer.panels.panel import Panel
 
 TEMPLATE = """
@@ -13,7 +14,7 @@ TEMPLATE = """
   </div>
   <ol class="track" :class="{tight: timeline.marks.length > 20}" data-testid="timeline">
     <li v-for="mark in timeline.marks" :key="mark.step" :class="{vertex: mark.vertex}">
-      <button class="mark" :class="[mark.kind, {now: mark.step === event_index, gives: mark.gives, past: mark.step < event_index}]"
+      <button class="mark" :class="[mark.kind, {now: mark.step === event_index, gives: mark.gives, past: mark.step < event_index, parts: mark.step === timeline.parts}]"
         :data-testid="'mark-' + mark.step" :title="mark.title" :aria-label="mark.title"
         :aria-current="mark.step === event_index ? 'step' : null" @click="trigger('event', [mark.step])">{{ mark.glyph }}</button></li>
   </ol>
@@ -23,13 +24,28 @@ TEMPLATE = """
     <button data-testid="down" :aria-label="w.down" :title="w.down" @click="trigger('go', ['down'])"><castray-icon name="down"/></button>
   </div>
 </section>
+<section v-if="timeline.twin" class="timeline beside" :aria-label="w.timeline_twin" data-testid="twin-timeline"><span class="of">{{ timeline.twin.name }}</span>
+  <ol class="track" :class="{tight: timeline.twin.marks.length > 20}">
+    <li v-for="mark in timeline.twin.marks" :key="mark.step" :class="{vertex: mark.vertex}"><span class="mark" role="img" :class="[mark.kind, {gives: mark.gives, parts: mark.step === timeline.twin.parts}]"
+      :data-testid="'twin-mark-' + mark.step" :title="mark.title" :aria-label="mark.title">{{ mark.glyph }}</span></li></ol></section>
 """
 GLYPHS = {"camera": "◉", "hit": "●", "light": "✦", "bounce": "↗", "roulette": "⚄", "escape": "↠", "end": "■"}
 
 
 def show(session, say):
-    """One mark an event; those that add light are marked."""
-    marks = [
+    """One mark an event; those that add light are marked, and where the path leaves its twin."""
+    path = say("timeline.path", path=session.cursor.path, n=len(session.record.paths))
+    shown = {"marks": _marks(session.path, say), "path": path, "parts": None, "twin": None}
+    there = beside(session)
+    if there is None:
+        return shown
+    mine, its = there.parting.steps if there.parting else (None, None)
+    twin = {"name": say("timeline.twin"), "marks": _marks(there.path, say), "parts": its}
+    return shown | {"parts": mine, "twin": twin}
+
+
+def _marks(path, say):
+    return [
         {
             "step": step,
             "kind": event.kind.name,
@@ -38,10 +54,8 @@ def show(session, say):
             "gives": bool(np.any(event.values.get("contribution", 0) > 0)),
             "title": say("timeline.mark", event=step, kind=say(f"kind.{event.kind.name}"), depth=event.depth),
         }
-        for step, event in enumerate(session.path.events)
+        for step, event in enumerate(path.events)
     ]
-    path = say("timeline.path", path=session.cursor.path, n=len(session.record.paths))
-    return {"marks": marks, "path": path}
 
 
 PANEL = Panel("timeline", "below", "path", 10, TEMPLATE, show)

@@ -28,7 +28,7 @@
   }
 
   const Picture = {
-    props: ["rgb", "width", "height", "x", "y", "exposure", "label", "words", "overlay", "overlayValues"],
+    props: ["rgb", "width", "height", "x", "y", "exposure", "label", "words", "overlay", "overlayValues", "rival", "wipe"],
     emits: ["pick"],
     setup(props, { emit }) {
       const canvas = ref(null), hover = ref("");
@@ -36,6 +36,8 @@
       let linear = null, drag = null;
       const sheet = document.createElement("canvas"), cover = document.createElement("canvas");
       let covering = null; // the numbers laid over the picture
+      const beside = document.createElement("canvas"); // the picture compared with, seen right of the wipe
+      let wiping = false;
 
       const unit = (box) => Math.min(box.width / props.width, box.height / props.height) * view.scale;
       const origin = (box) => [
@@ -51,7 +53,13 @@
         g.setTransform(dots, 0, 0, dots, 0, 0);
         g.clearRect(0, 0, box.width, box.height);
         g.imageSmoothingEnabled = u < 1;
-        for (const layer of [linear && sheet, covering && cover]) if (layer) g.drawImage(layer, left, top, u * props.width, u * props.height);
+        const put = (layer) => g.drawImage(layer, left, top, u * props.width, u * props.height);
+        for (const layer of [linear && sheet, covering && cover]) if (layer) put(layer);
+        if (wiping && !covering) {
+          const edge = left + props.wipe * u * props.width;
+          g.save(); g.beginPath(); g.rect(edge, 0, box.width, box.height); g.clip(); put(beside); g.restore();
+          for (const [style, wide] of [["#000", 3], ["#ffd257", 1.5]]) { g.fillStyle = style; g.fillRect(edge - wide / 2, top, wide, u * props.height); }
+        }
         const size = Math.max(u, 7), cx = left + u * (props.x + 0.5), cy = top + u * (props.y + 0.5);
         for (const [style, wide] of [["#000", 3.5], ["#fff", 1.5]]) {
           Object.assign(g, { strokeStyle: style, lineWidth: wide });
@@ -70,6 +78,14 @@
         linear = values;
         Object.assign(sheet, { width: props.width, height: props.height });
         sheet.getContext("2d").putImageData(image, 0, 0);
+        draw();
+      }
+      function bring() {
+        wiping = !!props.rival && props.rival.byteLength === 12 * props.width * props.height;
+        if (wiping) {
+          Object.assign(beside, { width: props.width, height: props.height });
+          beside.getContext("2d").putImageData(develop(props.rival, props.width, props.height, props.exposure).image, 0, 0);
+        }
         draw();
       }
       function recover() {
@@ -118,11 +134,12 @@
         if (at) emit("pick", at);
       }
       const sizes = new ResizeObserver(draw);
-      onMounted(() => { sizes.observe(canvas.value); redevelop(); recover(); });
+      onMounted(() => { sizes.observe(canvas.value); redevelop(); recover(); bring(); });
       onBeforeUnmount(() => sizes.disconnect());
       watch(() => [props.rgb, props.width, props.height, props.exposure], redevelop);
       watch(() => [props.overlay && JSON.stringify(props.overlay), props.overlayValues], recover);
-      watch(() => [props.x, props.y], draw);
+      watch(() => [props.rival, props.width, props.height, props.exposure], bring);
+      watch(() => [props.x, props.y, props.wipe], draw);
       const leave = () => { hover.value = ""; };
       const wheel = (event) => zoom(1.25 ** (event.deltaY < 0 ? 1 : -1), event);
       return { canvas, hover, zoom, down, move, up, leave, wheel };

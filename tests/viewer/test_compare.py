@@ -1,0 +1,137 @@
+"""Compare: the twin of a pixel, the maps of two pictures, and what may be compared with."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from suite import castray
+
+import tracer
+from lessons.zoo import planted
+from tracer.testing import compare
+from viewer.comparing import maps, rival
+from viewer.comparing.comparer import beside
+from viewer.comparing.twins import PixelTwin
+from viewer.session import Session
+
+SETTINGS = tracer.Settings(width=16, height=16, spp=4, max_depth=4)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return tracer.load("cornell_unit")
+
+
+@pytest.fixture(scope="module")
+def pictures(scene):
+    """The right picture and the one with D10."""
+    wrong = replace(SETTINGS, bug="D10")
+    return tracer.render(scene, SETTINGS), tracer.render(scene, wrong, steps=planted(wrong))
+
+
+@pytest.fixture(scope="module")
+def pixel(pictures):
+    """x, y of the pixel that differs most."""
+    return compare(*pictures).errors.worst[:2]
+
+
+@pytest.fixture
+def session(scene, pixel):
+    """A session that compares with D10, at a pixel."""
+    made = Session(scene, SETTINGS, None)
+    made.against = "D10"
+    made.stand((*pixel, 0, 0))
+    return made
+
+
+def values_at(event):
+    return {name: np.asarray(value).tobytes() for name, value in event.values.items()}
+
+
+def test_a_path_and_its_twin_are_the_same_up_to_where_they_part(session):
+    parted = 0
+    for k in range(len(session.record.paths)):
+        session.cursor = session.cursor.on(k)
+        there = beside(session)
+        mine, its = session.path.events, there.path.events
+        step = min(len(mine), len(its)) if there.parting is None else there.parting.steps[0]
+        assert all(values_at(a) == values_at(b) for a, b in zip(mine[:step], its[:step], strict=True))
+        if there.parting is not None:
+            parted += 1
+            assert mine[step].kind.name == "light"
+            assert not np.array_equal(mine[step].values["contribution"], its[step].values["contribution"])
+    assert parted > 0
+
+
+def test_the_twins_pixel_is_that_of_the_other_tracers_picture(session, pictures, pixel):
+    twin = PixelTwin(session.scene, SETTINGS, rival.of_scene("D10", session.scene, SETTINGS), *pixel)
+    for record, picture in zip((session.record, twin.record), pictures, strict=True):
+        assert record.value.tobytes() == picture.rgb[pixel[1], pixel[0]].tobytes()
+
+
+def test_other_random_numbers_have_no_twins(session):
+    other = rival.Rival("other", session.scene, replace(SETTINGS, seed=1))
+    with pytest.raises(tracer.TracerError, match="seed is 0"):
+        PixelTwin(session.scene, session.settings, other, 0, 0)
+
+
+def test_the_map_of_the_difference_is_a_less_b_of_the_channel_furthest_off(pictures):
+    a, b = pictures
+    overlay = maps.view("difference", a, b, compare(a, b))
+    apart = a.rgb.astype(float) - b.rgb
+    assert np.abs(overlay.values) == pytest.approx(np.abs(apart).max(axis=2), rel=1e-6)
+    assert overlay.low == -overlay.high and overlay.high > 0
+
+
+def test_the_map_of_the_ratio_is_a_divided_by_b(pictures):
+    a, b = pictures
+    overlay = maps.view("ratio", a, b, compare(a, b))
+    y, x = np.unravel_index(np.nanargmax(np.abs(np.log(overlay.values))), overlay.values.shape)
+    with np.errstate(all="ignore"):
+        ratios = a.rgb[y, x].astype(float) / b.rgb[y, x]
+    assert np.isclose(ratios, overlay.values[y, x], rtol=1e-5).any()
+    assert overlay.log and overlay.low * overlay.high == pytest.approx(1.0)
+
+
+def test_the_map_of_z_is_the_z_test_s(pictures):
+    a, b = pictures
+    verdict = compare(a, b)
+    overlay = maps.view("z", a, b, verdict)
+    there = np.isfinite(overlay.values)
+    assert np.abs(overlay.values[there]) == pytest.approx(
+        np.nanmax(np.abs(verdict.z.z), axis=2)[there], rel=1e-6
+    )
+    assert overlay.high == maps.SURE
+
+
+def test_a_picture_without_variance_has_no_z(pictures, tmp_path):
+    tracer.write(pictures[1], tmp_path / "mine.png")
+    there = rival.of_file(str(tmp_path / "mine.png"))
+    assert maps.possible(compare(pictures[0], there.picture)) == ("difference", "ratio")
+    assert not there.traced
+
+
+def test_a_recording_is_compared_as_it_was_recorded_and_its_paths_traced_again(
+    scene, pictures, pixel, tmp_path
+):
+    wrong = replace(SETTINGS, bug="D10")
+    tracer.record(scene, wrong, tmp_path / "box", "paths", steps=planted(wrong))
+    there = rival.of_file(str(tmp_path / "box"))
+    assert there.picture.rgb.tobytes() == pictures[1].rgb.tobytes()
+    assert PixelTwin(scene, SETTINGS, there, *pixel).found.differing > 0
+
+
+def test_a_picture_of_another_size_sets_the_size_or_is_refused(pictures, tmp_path):
+    tracer.write(pictures[1], tmp_path / "mine.npy")
+    there = rival.of_file(str(tmp_path / "mine.npy"))
+    fitted = rival.fitted(tracer.Settings(), there)
+    assert (fitted.width, fitted.height) == (16, 16)
+    with pytest.raises(tracer.TracerError, match="give --size 16 16"):
+        rival.fitted(tracer.Settings(width=8, height=8), there)
+
+
+@pytest.mark.slow
+def test_what_cannot_be_compared_with_is_one_clear_line():
+    ran = castray("view", "cornell_unit", "--no-browser", "--compare", "Z99", timeout=60)
+    assert ran.returncode == 2 and ran.stdout == ""
+    assert len(ran.stderr.splitlines()) == 1 and "Z99" in ran.stderr

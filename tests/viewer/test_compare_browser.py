@@ -1,0 +1,121 @@
+"""The Compare panel in a real browser: what it shows is what castray diff and castray twin say."""
+
+import io
+import json
+from contextlib import redirect_stdout
+
+import numpy as np
+import pytest
+
+import tracer
+from viewer.cli import main
+
+pytestmark = pytest.mark.browser
+
+SIDE = 32
+SMALL = ("--size", SIDE, SIDE, "--spp", 4, "--max-depth", 4)
+
+
+def said(*words):
+    """The JSON document that a command prints."""
+    out = io.StringIO()
+    with redirect_stdout(out), pytest.raises(SystemExit):
+        main([str(word) for word in words])
+    return json.loads(out.getvalue())
+
+
+@pytest.fixture(scope="module")
+def page(serve, browser):
+    """One tab with the Compare panel open, the right tracer beside D01."""
+    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
+    errors = []
+    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
+    opened.goto(serve("cornell_unit", *map(str, SMALL), "--compare", "D01").address)
+    opened.wait_for_selector("html[data-ready]")
+    opened.get_by_test_id("tab-compare").click()
+    opened.get_by_test_id("progress").wait_for(state="detached", timeout=60_000)
+    yield opened
+    assert errors == []
+    opened.context.close()
+
+
+@pytest.fixture(scope="module")
+def pictures(tmp_path_factory):
+    """What the commands say of both pictures."""
+    place = tmp_path_factory.mktemp("pictures")
+    a, b = (place / name for name in ("a.exr", "b.exr"))
+    for file, words in ((a, ()), (b, ("--bug", "D01"))):
+        said("render", "cornell_unit", *SMALL, *words, "-o", file, "--json")
+    return said("diff", a, b, "--json") | {"apart": tracer.read(a).rgb - tracer.read(b).rgb}
+
+
+def test_the_numbers_are_those_of_castray_diff(page, pictures):
+    judged = page.get_by_test_id("compare-numbers")
+    judged.and_(page.locator(f"[data-exact*='{pictures['errors']['rmse']!r}']")).wait_for(timeout=60_000)
+    shown = json.loads(judged.get_attribute("data-exact"))
+    for key in ("same", "p_value", "errors", "test"):
+        assert shown[key] == pytest.approx(pictures[key]) if key == "p_value" else shown[key] == pictures[key]
+
+
+def test_the_wipe_shows_the_other_picture_to_its_right(page):
+    page.get_by_test_id("view-wipe").click()
+    page.get_by_test_id("wipe").wait_for()
+    shots = []
+    for share in ("0", "1"):
+        page.get_by_test_id("wipe").fill(share)
+        page.wait_for_timeout(100)
+        shots.append(page.get_by_test_id("picture").evaluate("c => c.toDataURL()"))
+    assert shots[0] != shots[1]
+    page.get_by_test_id("view-alone").click()
+    page.get_by_test_id("wipe").wait_for(state="detached")
+    page.wait_for_timeout(100)
+
+
+def test_hovering_the_difference_tells_the_numbers_of_the_pixel(page, pictures):
+    apart = np.abs(pictures["apart"]).max(axis=2)
+    apart[: SIDE // 3] = 0.0  # where buttons lie over the picture
+    y, x = np.unravel_index(np.argmax(apart), apart.shape)
+    page.get_by_test_id("view-difference").click()
+    page.get_by_test_id("legend-title").filter(has_text="a less b").wait_for()
+    box = page.get_by_test_id("picture").bounding_box()
+    side = min(box["width"], box["height"])
+    left, top = (box[a] + (box[b] - side) / 2 for a, b in (("x", "width"), ("y", "height")))
+    page.mouse.move(left + (x + 0.5) * side / SIDE, top + (y + 0.5) * side / SIDE)
+    page.get_by_test_id("hover").filter(has_text=f"({x}, {y})").wait_for()
+    value = float(page.get_by_test_id("hover").inner_text().rpartition(":")[2])
+    assert abs(value) == pytest.approx(apart[y, x], rel=1e-3)
+    for view in ("ratio", "z"):
+        page.get_by_test_id(f"view-{view}").click()
+        page.locator(f"[data-testid=view-{view}].now").wait_for()
+    page.get_by_test_id("uncover").click()
+
+
+def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
+    x, y, _ = pictures["errors"]["worst"]
+    page.get_by_test_id("compare-worst").click()
+    page.locator(f"[data-testid=event-table][data-pixel='{x},{y}']").wait_for()
+    page.get_by_test_id("parting-0").click()
+    page.locator("[data-testid=parting-0].now").wait_for()
+    sample = int(page.get_by_test_id("event-table").get_attribute("data-path"))
+    twins = said("twin", "cornell_unit", *SMALL, "--bug", "D01", "--limit", 1000, "--json")["largest"]
+    there = [p for p in twins if (p["x"], p["y"], p["sample"]) == (x, y, sample)]
+    assert there, "the worst pixel's worst path is not among the 1000 that differ most"
+    mine, its = there[0]["steps"]
+    page.keyboard.press("Home")
+    page.get_by_test_id("compare-go").click()
+    page.locator(f"[data-testid=row-{mine}][data-now=true]").wait_for()
+    assert int(page.get_by_test_id("compare-parting").get_attribute("data-step")) == mine
+    assert "parts" in page.get_by_test_id(f"mark-{mine}").get_attribute("class")
+    assert "parts" in page.get_by_test_id(f"twin-mark-{its}").get_attribute("class")
+    assert page.get_by_test_id("legend-twin").is_visible()
+    names = page.locator("[data-testid=compare-fields] tbody th").all_inner_texts()
+    assert set(names) == set(there[0]["numbers"])
+
+
+def test_another_bug_is_chosen_and_compared(page):
+    page.get_by_test_id("rival").select_option("E01")
+    page.get_by_test_id("compare-b").wait_for()
+    page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("rival").select_option("")
+    page.get_by_test_id("compare-verdict").wait_for(state="detached")
+    page.get_by_test_id("twin-timeline").wait_for(state="detached")
