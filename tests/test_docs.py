@@ -12,7 +12,15 @@ import pytest
 from suite import ROOT, castray
 from test_layers import FLOORS
 
-PAPERS = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md", "BENCHMARKS.md")
+PAPERS = (
+    "README.md",
+    "README.zh-CN.md",
+    "ARCHITECTURE.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "REFERENCES.md",
+    "BENCHMARKS.md",
+)
 SHELLS = ("sh", "bash", "console")
 
 
@@ -34,7 +42,13 @@ def examples():
         for body in blocks(name, *SHELLS)
         for line in body.splitlines()
     ]
-    return [line for line in lines if line.startswith("castray ") and " view " not in line]
+    said = {bare(line): line for line in reversed(lines)}  # what two papers say runs once
+    return [line for line in reversed(said.values()) if line.startswith("castray ") and " view " not in line]
+
+
+def bare(code):
+    """Code without its comments."""
+    return re.sub(r"[ \t]*(?:#(?!include)|//)[ \t].*$", "", code, flags=re.MULTILINE)
 
 
 def dear(line):
@@ -104,6 +118,13 @@ def test_the_pixel_of_the_first_five_minutes_is_in_the_shadow_of_the_small_box()
     assert {event["shape"] for event in events if event["kind"] == "hit" and event["depth"] == 0} == {"floor"}
     assert first
     assert all(not event["visible"] and event["blocker"] == "small_box" for event in first)
+
+
+def test_the_code_of_the_chinese_readme_is_that_of_the_english_one_but_for_comments():
+    for language in ("sh", "powershell", "console", "text", "cpp", "toml", "python"):
+        english = [bare(body) for body in blocks("README.md", language)]
+        chinese = [bare(body) for body in blocks("README.zh-CN.md", language)]
+        assert chinese and set(chinese) <= set(english), set(chinese) - set(english)
 
 
 def test_every_link_leads_to_a_file():

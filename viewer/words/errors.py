@@ -71,7 +71,7 @@ WORDS = {
         "error.unwritable": "{place}：无法写入：{why}",
         "error.folder": "{place}：没有文件夹 {folder}",
         "error.file": "{place}：没有这个文件",
-        "error.bug": "bug：错误大全里没有 {value}；有 {known}",
+        "error.bug": "bug：错误动物园里没有 {value}；有 {known}",
         "error.bugs": "bug：{one} 和 {other} 都要替换步骤 {step}；只能植入其中一个",
         "error.sample": "没有样本 {sample}：样本从 0 到 {last}",
         "error.known": "{place}：不认识 {value}；可用的有：{known}",

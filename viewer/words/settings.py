@@ -18,6 +18,6 @@ WORDS = {
         "setting.precision": "浮点数的位数",
         "setting.accel": "谁来查找大网格的三角形：castray 自己的树，或 Embree（需要 embreex）",
         "setting.jitter": "样本在像素内散开（关：全部穿过中心）",
-        "setting.bug": "植入错误大全中的错误，多个时用逗号分开（castray bugs 列出它们）",
+        "setting.bug": "植入错误动物园中的错误，多个时用逗号分开（castray bugs 列出它们）",
     },
 }

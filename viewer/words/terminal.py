@@ -93,7 +93,7 @@ WORDS = {
         "command.bench": "测量运行时间与误差的关系：这个场景该用哪种估计方法？",
         "command.export": "把场景写成 Mitsuba 3 的 XML，castray 和 Mitsuba 都能读取。",
         "command.log": "检查你自己的追踪器的日志；写出 castray.h，供 C++ 程序记录日志。",
-        "command.bugs": "列出错误大全：每种错误看起来怎样，违反哪条定律；并可画出图像。",
+        "command.bugs": "列出错误动物园：每种错误看起来怎样，违反哪条定律；并可画出图像。",
         "help.commands": "命令",
         "help.arguments": "参数",
         "help.parameters": "选项",
