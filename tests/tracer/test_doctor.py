@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import combinations
 
 import doctor_paper
 import doctor_table
@@ -92,6 +93,12 @@ def test_a_bug_of_the_zoo_is_named_first(bug):
 @pytest.mark.slow
 def test_the_abandoned_castray_is_three_mistakes_that_hide_each_other():
     assert {"E01", "D01", "D06"} <= set(examine(zoo_trace("castray")).bugs)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bugs", [b for k in (1, 2, 3) for b in combinations(("E01", "D01", "D06"), k)])
+def test_the_three_mistakes_of_castray_are_told_apart_in_any_combination(bugs):
+    assert set(examine(zoo_trace(*bugs, spp=8)).bugs) == set(bugs)
 
 
 @pytest.mark.parametrize("bug", ["D10", "R01"])
