@@ -7,7 +7,11 @@ from html import escape
 from lessons.plain import NAMES
 from lessons.words import TaskWords, markdown
 
-# The converter leaves no room around sin and its like.
+# What the converter does otherwise than a formula is set: no room around sin and its like, bars that stretch
+# where nobody asked for it, an arrow that is taken for a name.
+BAR = '<mo stretchy="false" lspace="0" rspace="0">'
+MENDED = {f"<mo>&#x{bar};</mo>": f"{BAR}&#x{bar};</mo>" for bar in ("02016", "0007C")}
+MENDED |= {"<mi>&#x027FA;</mi>": "<mo>&#x027FA;</mo>"}
 NAME = rf"\\(?:{'|'.join(NAMES)})(?![A-Za-z])"
 SCRIPT = r"[\^_](?:\{[^{}]*\}|\\[A-Za-z]+|.)"
 BEFORE = re.compile(rf"(?<=[\w}}])\s*({NAME})")
@@ -42,7 +46,10 @@ def mathml(latex, display=False):
     from latex2mathml.converter import convert
 
     spaced = BEFORE.sub(r"\,\1", AFTER.sub(r"\1\,", latex.strip()))
-    return convert(spaced, display="block" if display else "inline")
+    made = convert(spaced, display="block" if display else "inline")
+    for said, meant in MENDED.items():
+        made = made.replace(said, meant)
+    return made
 
 
 @cache

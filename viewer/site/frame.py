@@ -74,5 +74,5 @@ def font():
 def _letters():
     """Code points: what is typed, and the italic and bold letters that a browser puts in its place."""
     ranges = ((0x20, 0x7F), (0x391, 0x3CA), (0x1D400, 0x1D468), (0x1D6E2, 0x1D71C))
-    signs = "ϑϕϵℎℓ·×±÷−′″°…⋯⋅≤≥≠≈→⇒∞∫∑∏∂∈∝≡∼≪≫‖⊥∥⟨⟩⌊⌋∀∧∨√"
+    signs = "ϑϕϵℎℓ·×±÷−′″°…⋯⋅≤≥≠≈→⇒⟺⇔¯∞∫∑∏∂∈∝≡∼≪≫‖⊥∥⟨⟩⌊⌋∀∧∨√"
     return {k for low, high in ranges for k in range(low, high)} | {ord(sign) for sign in signs}
