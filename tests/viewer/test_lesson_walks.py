@@ -140,7 +140,9 @@ def give(hand, page, run, task, said):
     hand.press(f"check-{task.id}")
 
 
-@pytest.mark.parametrize(("number", "hand"), [(1, Mouse), (4, Keyboard), (13, Keyboard), (14, Mouse)])
+@pytest.mark.parametrize(
+    ("number", "hand"), [(1, Mouse), (4, Keyboard), (13, Keyboard), (14, Mouse), (21, Mouse)]
+)
 def test_a_new_user_solves_a_lesson(page, number, hand):
     """One wrong answer, the hint that it brings, and then every task right."""
     it, run, hand = lesson(number), Run(lesson(number)), hand(page)
