@@ -81,6 +81,7 @@ def _run(session, port, open_browser, number=None):
     from trame.app import get_server
 
     from viewer.calls import Calls
+    from viewer.sharing.routes import serve_files
     from viewer.window import Window
 
     say, server = Speaker(), get_server("castray", client_type="vue3")
@@ -94,6 +95,7 @@ def _run(session, port, open_browser, number=None):
     def bind(web_server):
         web_server.app.middlewares.append(door.middleware)
         restrict(web_server, calls, window.whole_stage)
+        serve_files(web_server, window)
 
     def ready(**_):
         window.loop = asyncio.get_running_loop()

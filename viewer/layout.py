@@ -12,6 +12,7 @@ FRAME = """
     <span class="grow"></span>
     <span v-if="progress" class="progress" role="status" data-testid="progress">{{ progress }}</span>
     <span class="keys" aria-hidden="true"><kbd>←</kbd><kbd>→</kbd> {{ w.hint_events }} <kbd>↑</kbd><kbd>↓</kbd> {{ w.hint_paths }}</span>
+    %(header)s
     <select :value="language" :aria-label="w.language" :title="w.language" data-testid="language" @change="speak($event.target.value)">
       <option v-for="l in languages" :key="l.tag" :value="l.tag" :lang="l.tag">{{ l.name }}</option></select>
   </header>
@@ -49,7 +50,8 @@ TAB = (
 def template(view):
     """The whole page as a Vue template; view is the element of the 3D view."""
     places = {
-        place: [p for p in all_panels() if p.place == place] for place in ("left", "right", "tab", "below")
+        place: [p for p in all_panels() if p.place == place]
+        for place in ("header", "left", "right", "tab", "below")
     }
     slots = {place: "".join(p.template for p in panels) for place, panels in places.items() if place != "tab"}
     slots["tablist"] = "".join(TAB.format(p.name) for p in places["tab"])

@@ -35,3 +35,15 @@ def view_command(scene, settings, place, changes=None):
     if scene not in tracer.built_in_scenes():
         return None
     return f"castray view {shlex.quote('#' + Link(scene, settings, place, changes or {}).write())}"
+
+
+def replayed(diagnosis, scene, settings, recording=None):
+    """A diagnosis of a scene's paths whose commands replay them as they are: with the bug and the changes,
+    which the doctor does not know; of a recording's folder, in that."""
+    if recording is not None:
+        return diagnosis.shown_in(recording)
+    if settings.bug:
+        diagnosis = diagnosis.replayed_with(f"--bug {settings.bug}")
+    for text in written(scene.definition.changes):
+        diagnosis = diagnosis.replayed_with(f"--set {shlex.quote(text)}")
+    return diagnosis

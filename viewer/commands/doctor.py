@@ -1,15 +1,22 @@
 """The command `castray doctor`."""
 
-import shlex
+from pathlib import Path
 
 import tracer
-from tracer.scene_file.change import written
+from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
 from viewer.options import DoctorOptions, Json, print_json, scene_of, settings_and_steps, shrunk
+from viewer.replay import replayed
 
 
 def doctor(
-    what: str, /, *, scene: str | None = None, options: DoctorOptions | None = None, json: Json = False
+    what: str,
+    /,
+    *,
+    scene: str | None = None,
+    html: Path | None = None,
+    options: DoctorOptions | None = None,
+    json: Json = False,
 ):
     """Hold the laws of light transport against a trace: what is wrong, where, and which mistake.
 
@@ -23,19 +30,20 @@ def doctor(
         tracer, FILE.jsonl (castray log --schema).
     scene
         The scene that a log is of.
+    html
+        Where a report goes, too: one page that opens without a network, with the first finding's path in 3D.
     """
     from lessons.course import about
     from viewer.recorded import is_recording
 
+    if html is not None:
+        check_place(html)
     recorded = is_recording(what)
     trace = _recorded(what, scene, options) if recorded else _trace(what, scene, options)
     diagnosis = tracer.examine(trace).explained_by(about)
-    if recorded:
-        diagnosis = diagnosis.shown_in(what)
-    elif trace.settings.bug:  # which the doctor does not know
-        diagnosis = diagnosis.replayed_with(f"--bug {trace.settings.bug}")
-    for text in written(trace.scene.definition.changes):
-        diagnosis = diagnosis.replayed_with(f"--set {shlex.quote(text)}")
+    diagnosis = replayed(diagnosis, trace.scene, trace.settings, what if recorded else None)
+    if html is not None:
+        _write(html, diagnosis, trace, again=not what.lower().endswith(".jsonl"))
     if json:
         print_json(diagnosis.as_dict())
     else:
@@ -43,6 +51,15 @@ def doctor(
 
         print_diagnosis(diagnosis, trace)
     return 1 if diagnosis.findings else 0
+
+
+def _write(file, diagnosis, trace, again):
+    """The report as a page; again: whether the trace's paths can be traced again."""
+    from viewer.sharing.report import report
+    from viewer.words import Speaker
+
+    text = report(diagnosis, trace.scene, trace.settings, trace.size, Speaker(), again)
+    write_whole(file, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
 
 
 def _recorded(what, scene, options):

@@ -1,10 +1,12 @@
 """The command `castray inspect`."""
 
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 import tracer
+from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
 from tracer.what_if import parse, supposed
 from viewer.options import Json, PathOptions, Whole, print_json, scene_of, settings_and_steps, two_whole
@@ -18,6 +20,7 @@ def inspect(
     sample: Annotated[int | None, Whole] = None,
     what_if: Annotated[tuple[str, ...], Parameter(negative=())] = (),
     why: Annotated[bool, Parameter(negative=())] = False,
+    html: Path | None = None,
     options: PathOptions | None = None,
     json: Json = False,
 ):
@@ -37,7 +40,11 @@ def inspect(
     why
         Say instead why the pixel is black, or what it is: reasons in sentences, the nearest to a cause first,
         and what it is made of by depth and technique; with --json both beside the rest.
+    html
+        Where the paths in 3D go, too: one page that opens without a network.
     """
+    if html is not None:
+        check_place(html)
     settings, steps = settings_and_steps(options)
     loaded = scene_of(scene, options)
     if what_if:
@@ -47,12 +54,28 @@ def inspect(
     else:
         record = tracer.inspect(loaded, settings, *pixel, sample, steps)
     prepared = loaded.at(record.settings)
+    if html is not None:
+        _write(html, record, loaded)
     if json:
         print_json(record.as_dict(prepared) | (_reasons(record, prepared) if why else {}))
         return
     from viewer.report import print_pixel, print_why
 
     (print_why if why else print_pixel)(record, prepared)
+
+
+def _write(file, record, scene):
+    """The pixel's paths in 3D as a page, opened at the brightest."""
+    from viewer.cursor import Cursor
+    from viewer.offline import page
+    from viewer.session import brightest, most_giving
+    from viewer.words import Speaker
+
+    path = brightest(record)
+    lengths = tuple(len(one.events) for one in record.paths)
+    cursor = Cursor(record.x, record.y, lengths, path, most_giving(record.paths[path]))
+    text = page(scene, record, cursor, Speaker())
+    write_whole(file, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
 
 
 def _reasons(record, scene):

@@ -6,7 +6,7 @@
 gives the `document` the `furniture` (styles, scripts) and `View.script()` beside `<div class="castray-3d">`.
 """
 
-from viewer.offline.page import document, furniture, page
+from viewer.offline.page import BEGIN, document, figure, furniture, page
 from viewer.offline.view import View
 
-__all__ = ["View", "document", "furniture", "page"]
+__all__ = ["BEGIN", "View", "document", "figure", "furniture", "page"]

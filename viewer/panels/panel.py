@@ -10,7 +10,7 @@ LEVELS = ("picture", "pixel", "path", "event")
 class Panel:
     """One part of the page.
 
-    place: where it stands: left, right (above the tabs), tab, below, window (opened by its button).
+    place: where it stands: header, left, right (above the tabs), tab, below.
     level: what it depends on; show is asked again when that, or something before it in LEVELS, changes.
     show: (session, say) -> plain values, which the template finds under the panel's name; None if it has none.
     template: Vue template; `w` holds the words whose key starts with "ui.".

@@ -327,6 +327,21 @@
     </label>`,
   };
 
+  // A text to be copied: by the button, or selected by hand where the browser does not let us.
+  const Copy = {
+    props: ["text", "words"],
+    setup(props) {
+      const field = ref(null), done = ref(false);
+      async function copy() {
+        field.value.select();
+        try { await navigator.clipboard.writeText(props.text); done.value = true; setTimeout(() => { done.value = false; }, 1500); } catch { done.value = false; }
+      }
+      return { field, done, copy };
+    },
+    template: `<div class="copy"><input ref="field" type="text" readonly :value="text" :aria-label="words.share_link" data-testid="share-link" @focus="field.select()">
+      <button data-testid="share-copy" @click="copy()">{{ done ? words.share_copied : words.share_copy }}</button></div>`,
+  };
+
   const SHAPES = {
     back: "M15 5l-7 7 7 7", forward: "M9 5l7 7-7 7", close: "M6 6l12 12M18 6 6 18",
     first: "M6 5v14M19 5 9 12l10 7z", previous: "M17 5 7 12l10 7z", play: "M7 5l12 7-12 7z", pause: "M8 5v14M16 5v14",
@@ -342,7 +357,7 @@
   window.castray = {
     fitted, short, clamp,
     install(app) {
-      const parts = { CastrayPicture: Picture, CastrayBars: Bars, CastrayLabels: Labels, CastrayTab: Tab, CastrayIcon: Icon, CastrayKnob: Knob };
+      const parts = { CastrayPicture: Picture, CastrayBars: Bars, CastrayLabels: Labels, CastrayTab: Tab, CastrayIcon: Icon, CastrayKnob: Knob, CastrayCopy: Copy };
       // scripts arrive in any order: the others left word of how their parts are made
       for (const make of window.castrayParts || []) Object.assign(parts, make(this));
       for (const [name, part] of Object.entries(parts)) app.component(name, part);

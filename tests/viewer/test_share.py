@@ -1,0 +1,97 @@
+"""What is taken along from the viewer is what the commands write, and asks nobody for anything."""
+
+import io
+import json
+import re
+from contextlib import redirect_stdout
+
+import numpy as np
+import pytest
+
+import tracer
+from lessons.zoo import planted
+from viewer.cli import main
+from viewer.session import Session
+from viewer.sharing.files import FILES, Moment
+from viewer.words import Speaker
+
+WORDS = ("cornell_unit", "--size", "16", "16", "--spp", "4", "--max-depth", "4", "--bug", "D10")
+
+
+def said(*words):
+    """What a command prints; its exit code."""
+    out = io.StringIO()
+    with redirect_stdout(out), pytest.raises(SystemExit) as ended:
+        main([str(word) for word in words])
+    return out.getvalue(), ended.value.code
+
+
+@pytest.fixture(scope="module")
+def moment():
+    """The moment of a session at a path, with the picture that the command renders."""
+    settings = tracer.Settings(width=16, height=16, spp=4, max_depth=4, bug="D10")
+    session = Session(tracer.load("cornell_unit"), settings, None)
+    session.stand((7, 11, 2, 1))
+    session.picture = tracer.render(session.scene, settings, steps=planted(settings))
+    return Moment.of(session, Speaker("en"))
+
+
+def test_the_path_is_what_castray_inspect_prints(moment):
+    name, data = moment.file("path.json")
+    assert name == "cornell_unit-7-11-2.json"
+    printed, _ = said("inspect", *WORDS, "--pixel", 7, 11, "--sample", 2, "--json")
+    assert data.decode("ascii") == printed
+
+
+def test_a_supposed_path_is_what_castray_inspect_prints(moment):
+    what = {(0, "bounce"): (30.0, 45.0)}
+    data = moment.__class__(**{**vars(moment), "suppositions": what}).file("path.json")[1]
+    words = ("--pixel", 7, 11, "--sample", 2, "--what-if", "0.bounce=30,45", "--json")
+    assert json.loads(data) == json.loads(said("inspect", *WORDS, *words)[0])
+
+
+@pytest.mark.parametrize("ending", ["png", "exr"])
+def test_the_picture_is_what_castray_render_writes(moment, ending, tmp_path):
+    (tmp_path / f"shared.{ending}").write_bytes(moment.file(f"picture.{ending}")[1])
+    said("render", *WORDS, "-o", tmp_path / f"rendered.{ending}", "--json")
+    shared, rendered = (tracer.read(tmp_path / f"{name}.{ending}") for name in ("shared", "rendered"))
+    assert np.array_equal(shared.rgb, rendered.rgb)
+    assert shared.notes == rendered.notes
+
+
+def test_the_report_has_every_finding_and_law_of_castray_doctor(moment, tmp_path):
+    page = moment.file("doctor.html")[1].decode("utf-8")
+    printed, code = said("doctor", *WORDS, "--html", tmp_path / "report.html", "--json")
+    diagnosis = json.loads(printed)
+    assert code == 1 and (tmp_path / "report.html").read_text(encoding="utf-8") == page
+    causes = [f for f in diagnosis["findings"] if f["follows"] is None]
+    assert re.findall(r'data-rule="([^"]+)" data-bug="([^"]*)"', page) == [
+        (f["rule"], f["bug"] or "") for f in causes
+    ]
+    states = dict(re.findall(r'data-rule="([^"]+)" data-state="([^"]+)"', page))
+    assert states == {rule["rule"]: rule["state"] for rule in diagnosis["rules"]}
+    assert "--bug D10" in causes[0]["command"] and causes[0]["command"] in page
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name.endswith(".html")])
+def test_a_page_names_nothing_outside_itself(moment, name):
+    page = moment.file(name)[1].decode("utf-8")
+    assert not re.search(r"(?:src|href)=[\"'](?!data:)", page) and "url(" not in page and "http" not in page
+
+
+def test_the_paths_in_3d_are_what_castray_inspect_writes(tmp_path):
+    file = tmp_path / "view.html"
+    said("inspect", *WORDS, "--pixel", 7, 11, "--html", file, "--json")
+    data = re.search(r'id="paths">(.*?)</script>', file.read_text(encoding="utf-8"), re.DOTALL)[1]
+    place = json.loads(data)["places"][0]
+    assert (place["x"], place["y"], len(place["paths"])) == (7, 11, 4)
+
+
+def test_a_page_that_cannot_be_written_is_said_before_anything_is_traced(tmp_path, capsys):
+    assert said("doctor", *WORDS, "--html", tmp_path / "none" / "report.html") == ("", 2)
+    assert "there is no folder" in capsys.readouterr().err
+
+
+def test_without_a_picture_it_says_so(moment):
+    with pytest.raises(tracer.TracerError, match="no picture yet"):
+        moment.__class__(**{**vars(moment), "picture": None}).file("picture.png")

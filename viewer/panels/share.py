@@ -1,0 +1,35 @@
+"""Share: the moment as a link, and files of it to take along."""
+
+from tracer.trace.folder import view_command as of_recording
+from viewer import examining
+from viewer.panels.panel import Panel
+from viewer.replay import view_command
+from viewer.sharing.files import FILES
+
+TEMPLATE = """
+<details class="menu" data-testid="share" @keydown.esc="$event.currentTarget.open = false"><summary>{{ w.share }}</summary><div>
+  <p class="dim">{{ w.share_link_about }}</p>
+  <castray-copy :text="share.command || link" :words="w"></castray-copy>
+  <p v-if="!share.command" class="dim">{{ w.share_here_only }}</p>
+  <ul><li v-for="f in share.files" :key="f.name"><a :href="'share/' + f.name" download :data-testid="'share-' + f.name" :title="f.title">{{ f.label }}</a></li></ul>
+</div></details>
+"""
+
+
+def show(session, say):
+    """The command that opens this moment anywhere, and the files there are."""
+    c, settings = session.cursor, session.settings
+    place = c.x, c.y, c.path, c.event
+    takes = {"seconds": examining.seconds(settings)}
+    files = [
+        {"name": name, "label": say(f"share.{name}", **takes), "title": say(f"share.{name}.title")}
+        for name in FILES
+    ]
+    if session.recording is not None:
+        command = of_recording(session.recording.path, (c.x, c.y, session.path.sample, c.event))
+    else:
+        command = view_command(session.scene.name, settings, place, session.scene.definition.changes)
+    return {"command": command or "", "files": files}
+
+
+PANEL = Panel("share", "header", "event", 10, TEMPLATE, show)
