@@ -67,13 +67,14 @@ class Reader:
     def course(self):
         return course_of(self.session)
 
-    def open(self, number):
-        """Open a lesson, and the viewer where it begins."""
+    def open(self, number, stay=False):
+        """Open a lesson, and the viewer where it begins unless the reader wants to stay."""
         if type(number) is not int:
             raise TracerError(f"lesson: {str(number)[:20]!r} is not a whole number")
         it = lesson(number)
-        self.window.open(of_moment(it.moments["start"]))
-        self.window.state.touched = True
+        if stay is not True:
+            self.window.open(of_moment(it.moments["start"]))
+            self.window.state.touched = True
         self.course.open = reading = Reading(Run(it))
 
         def done(texts):

@@ -9,6 +9,7 @@ from viewers import SMALL
 
 import tracer
 from lessons import zoo
+from lessons.course import about
 from viewer import examining
 from viewer.link import Link
 
@@ -81,6 +82,11 @@ def test_from_a_strange_picture_to_the_named_cause_in_three_clicks(page, picture
     page.get_by_test_id("finding-go-0").click()
     page.locator("[data-testid=finding-0].now").wait_for()
     assert page.get_by_test_id("finding-event-0").inner_text().startswith("pixel (")
+    if about(bug.id) is not None:
+        place = page.get_by_test_id("castray").get_attribute("data-link")
+        page.get_by_test_id("finding-lesson-0").click()
+        page.locator(f"[data-testid=lesson][data-number='{about(bug.id)}'] .task").first.wait_for()
+        assert page.get_by_test_id("castray").get_attribute("data-link") == place  # nobody is led away
 
 
 def test_a_right_picture_breaks_no_law(page):

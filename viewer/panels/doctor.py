@@ -1,7 +1,8 @@
 """The doctor: which laws the picture's paths break, the first cause first, and the event that proves it."""
 
+from lessons.course import lesson
 from viewer import examining
-from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, place
 from viewer.examining import Chart, Examiner
 from viewer.panels.panel import Panel
 from viewer.worker import Worker
@@ -22,7 +23,7 @@ TEMPLATE = """
     <p v-if="f.why">{{ f.why }}</p><p v-if="f.chance" class="dim">{{ f.chance }}</p>
     <p class="links"><button v-if="f.place" :data-testid="'finding-event-' + f.index" @click="trigger('doctor_go', [f.index])">{{ f.place }}</button>
       <button :data-testid="'finding-where-' + f.index" @click="trigger('doctor_where', [f.index])">{{ w.exam_where }}</button>
-      <code v-if="f.lesson" class="dim">{{ f.lesson }}</code></p></li></ol>
+      <button v-if="f.lesson" :data-testid="'finding-lesson-' + f.index" @click="tab = 'lesson'; trigger('lesson_open', [f.lesson.number, true])">{{ f.lesson.title }}</button></p></li></ol>
   <details v-if="doctor.following.length"><summary>{{ doctor.following_head }}</summary><ul class="rules"><li v-for="f in doctor.following" :key="f.rule">
     <button class="plain" :disabled="!f.place" @click="trigger('doctor_go', [f.index])">{{ f.text }}</button></li></ul></details>
   <details v-if="doctor.clean.length" data-testid="doctor-clean" :data-rules="doctor.clean.length"><summary>{{ doctor.clean_head }}</summary>
@@ -94,8 +95,13 @@ def _cause(index, finding, chart, say):
         "why": finding.explanation,
         "chance": "" if finding.p is None else chance(finding, say),
         "place": place(first, say) if first else "",
-        "lesson": "" if finding.lesson is None else lesson(finding),
+        "lesson": None if finding.lesson is None else _lesson(finding.lesson, say),
     }
+
+
+def _lesson(number, say):
+    title = lesson(number).words[say.language].title
+    return {"number": number, "title": say("lesson.head", number=number, title=title)}
 
 
 def _following(index, finding, say):
