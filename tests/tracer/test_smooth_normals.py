@@ -54,6 +54,17 @@ def hits(scene, settings=SETTINGS):
     ]
 
 
+def test_a_triangles_own_normal_lies_across_its_sides_and_tells_their_sense():
+    corners = np.random.default_rng(4).normal(size=(50, 3, 3))
+    mesh = Mesh("m", corners.reshape(-1, 3), np.arange(150).reshape(-1, 3))
+    n, offset = mesh.planes()
+    a, b, c = corners.transpose(1, 2, 0)
+    assert np.allclose(dot(n, n), 1.0) and np.allclose(dot(n, a), offset)
+    assert np.abs(dot(n, b - a)).max() < 1e-9 > np.abs(dot(n, c - a)).max()
+    assert (dot(n, np.cross(b - a, c - a, axis=0)) > 0.0).all()
+    assert np.allclose(replace(mesh, flip_normals=True).planes()[0], -n)
+
+
 def test_stored_normals_are_interpolated_and_made_unit_again(tmp_path):
     ball(tmp_path)
     for hit in hits(scene(tmp_path)):
