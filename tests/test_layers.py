@@ -37,6 +37,7 @@ FLOORS = {
     "tracer.resolution": 2,
     "tracer.scene": 3,
     "tracer.scene_file": 4,
+    "tracer.self_hit": 4,
     "tracer.integrator": 4,
     "tracer.engine": 5,
     "tracer.what_if": 6,

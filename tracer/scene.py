@@ -156,6 +156,15 @@ class Scene:
         """
         return self._closest(Rays.towards(o, d, source, touched=[]))
 
+    def started(self, o, d, source):
+        """Where rays that `intersect` is asked of start in the end, (3, N): off other faces they touch."""
+        rays, o = Rays.towards(o, d, source, touched=[]), o.copy()
+        self._nearest(rays)
+        if rays.touched:
+            lanes, moved, _ = start.moved(self._faces, rays)
+            put(o, lanes, moved.o)
+        return o
+
     def _closest(self, rays, distance=None):
         """As intersect; distance: (N,) to the point that rays are aimed at, if they are."""
         t, primitive = self._nearest(rays)
@@ -222,9 +231,10 @@ class Scene:
             out = out / length(out)
             put(p, lanes, center + radius * out)
             put(n, lanes, side * out)
-        return p, n, self._bound(p, n, primitive)
+        return p, n, self.bound(p, n, primitive)
 
-    def _bound(self, p, n, primitive):
+    def bound(self, p, n, primitive):
+        """How far points (3, N) may lie off their primitives, along normals n (3, N), in metres, (N,)."""
         return error_bound(p, n, self._reach.take(primitive))
 
     def spawn(self, hit, wi):
@@ -289,7 +299,7 @@ class Scene:
         """Rays from p to q, both moved off their surfaces towards each other, their lengths (N,), and whether
         the face they start on hides an end that had to be moved, (N,)."""
         hidden = False
-        o, goal = leave(p, n, self._bound(p, n, source), wi), leave(q, nq, self._bound(q, nq, target), -wi)
+        o, goal = leave(p, n, self.bound(p, n, source), wi), leave(q, nq, self.bound(q, nq, target), -wi)
         if self._beside:
             end.clear_ends(self._faces, self._beside, goal, target)
             hidden = dot(n, goal - o) * dot(n, wi) < 0.0

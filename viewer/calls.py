@@ -8,7 +8,7 @@ from viewer.cursor import MOVES
 from viewer.panels import all_panels
 from viewer.words import LANGUAGES
 
-OWN = "go pick back uncover path event at play open take speak dismiss truth".split()
+OWN = "go pick back uncover look path event at play open take speak dismiss truth".split()
 MOST_DIGITS = 9
 LONGEST_TAB = 64
 
@@ -63,6 +63,13 @@ class Calls:
     def uncover(self):
         """The picture alone, with nothing laid over it."""
         self.window.cover(None)
+
+    def look(self, tab):
+        """Open a tab."""
+        tabs = [panel.name for panel in all_panels() if panel.place == "tab"]
+        if tab not in tabs:
+            raise TracerError(f"tab: {str(tab)[:20]!r} is not known; choose one of {', '.join(tabs)}")
+        self.window.look(tab)
 
     def path(self, index):
         """Select a path by its place."""

@@ -43,7 +43,7 @@ FRAME = """
 """
 TAB = (
     '<button role="tab" :aria-selected="tab === \'{0}\'" :class="{{now: tab === \'{0}\'}}" data-testid="tab-{0}" '
-    "@click=\"tab = '{0}'\">{{{{ w.tab_{0} }}}}</button>"
+    "@click=\"tab = '{0}'; trigger('look', ['{0}'])\">{{{{ w.tab_{0} }}}}</button>"
 )
 
 

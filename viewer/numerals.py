@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 NOTHING = "–"
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # of red, green and blue (Rec. 709)
 
 
 def short(value):
@@ -45,5 +46,5 @@ def css(linear):
 
 
 def luminance(rgb):
-    """How bright a linear colour is to the eye (Rec. 709)."""
-    return float(np.dot(np.asarray(rgb, float), (0.2126, 0.7152, 0.0722)))
+    """How bright a linear colour is to the eye."""
+    return float(np.dot(np.asarray(rgb, float), LUMINANCE))

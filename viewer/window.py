@@ -26,6 +26,7 @@ class Window:
         self.stage = Stage(session.scene)
         self.painter, self.playing, self.rendered, self.loop = None, None, None, None
         self.followers = []  # told when a picture is begun() and when it has been painted() further
+        self.tab = None  # that is open on the page, as far as it has said
         self._build()
         self.refresh("picture")
 
@@ -97,7 +98,8 @@ class Window:
         self._push_stage()
         for panel in all_panels():
             if panel.show and panel.level in changed:
-                self.state[panel.name] = panel.show(session, self.say)
+                shut = panel.lazy and panel.name != self.tab
+                self.state[panel.name] = None if shut else panel.show(session, self.say)
         self.state.update(
             {
                 "path_index": cursor.path,
@@ -118,6 +120,12 @@ class Window:
             at = np.asarray(here(twin.path, since), float).tolist()
             found["twin"] = Companion(twin.path, self.say("compare.label"), since, at)
         return found
+
+    def look(self, tab):
+        """The reader looks at another tab."""
+        self.tab, before = tab, self.tab
+        if tab != before and any(p.name == tab and p.lazy for p in all_panels()):
+            self.show(tab)
 
     def show(self, name):
         """Show one panel again."""

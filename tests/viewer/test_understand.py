@@ -11,6 +11,12 @@ import tracer
 from lessons import zoo
 from lessons.zoo import planted
 from viewer.equation import origin
+from viewer.numerals import luminance
+from viewer.understanding import lens, microscope
+from viewer.understanding.draws import DRAWS, OFF
+from viewer.understanding.lens_words import judged
+from viewer.understanding.places import places
+from viewer.understanding.vertex import Vertex
 from viewer.understanding.waterfall import DEEP, FILM, INVALID, waterfall
 from viewer.understanding.why import why
 from viewer.words import LANGUAGES, Speaker
@@ -179,3 +185,95 @@ def test_the_command_says_why_in_words_and_in_json():
     text = said(*words)
     for reason in expected:
         assert reason["sentence"] in text
+
+
+def lens_of(scene, x, y, kind, **options):
+    """The Lens over the first event of a kind, and the event."""
+    record = recorded(scene, x, y, **options)
+    path, event = next((k, e) for k, p in enumerate(record.paths) for e in p.events if e.kind.name == kind)
+    ready = tracer.load(scene).at(record.settings)
+    return lens.over(ready, planted(record.settings), record, path, event.step), event, record
+
+
+@pytest.mark.parametrize(("scene", "place"), [("cornell_unit", (12, 20)), ("materials", (7, 15))])
+def test_the_lens_shows_the_angles_that_were_recorded(scene, place):
+    seen, event, record = lens_of(scene, *place, "bounce")
+    hit = next(e.values for p in record.paths for e in p.events if e.kind.name == "hit")
+    assert seen.vectors["wi"][2] == pytest.approx(event.values["cos"], rel=1e-4)
+    assert seen.vectors["wo"][2] == pytest.approx(hit["cos_wo"], rel=1e-4)
+    assert seen.vectors["wo"][0] <= 0 and abs(seen.vectors["wo"][1]) < 1e-6
+    own = [one for one in seen.tried if one.place == (0, event.step)]
+    assert np.allclose(own[0].shown, seen.vectors["wi"]) and own[0].kind == "bounce"
+
+
+def test_what_is_drawn_over_the_vertex_is_what_the_event_recorded():
+    seen, event, _ = lens_of("cornell_unit", 12, 20, "bounce")
+    angles, f, p = seen.plane
+    assert p[np.argmin(np.abs(angles))] == pytest.approx(1 / np.pi, rel=1e-3)
+    ready = tracer.load("cornell_unit").at(tracer.Settings())
+    vertex = Vertex(ready, next(q.hit for q in places(lens_of("cornell_unit", 12, 20, "bounce")[2]) if q.hit))
+    f, p = vertex.asked(vertex.shown(event.values["wi"].reshape(3, 1)))
+    assert p[0] == pytest.approx(event.values["pdf"], rel=1e-4)
+    assert f[0] == pytest.approx(luminance(event.values["f"]) * event.values["cos"], rel=1e-3)
+
+
+@pytest.mark.parametrize("scene", ["cornell_unit", "materials", "cornell_glass", "smooth_ball"])
+def test_bounces_of_a_right_tracer_go_where_the_density_says(scene):
+    """2048 fixed draws; each count is judged at 5 standard errors, once in a million for a right one."""
+    for x, y in ((7, 15), (12, 18), (15, 14)):
+        seen, _, _ = lens_of(scene, x, y, "hit")
+        assert sum(count.observed for count in seen.counts) == DRAWS
+        known = [count.expected for count in seen.counts]
+        if None not in known:
+            assert sum(known) == pytest.approx(1.0, abs=0.01)
+            assert abs(seen.worst.off) < OFF
+
+
+@pytest.mark.parametrize("bug", ["B08", "B09", "W01"])
+def test_bounces_that_do_not_go_there_are_seen(bug):
+    """The test above can fail: wrong directions are tens of standard errors off."""
+    asked = zoo.of(bug).asked(width=24, height=24, spp=4, bug=bug).as_dict()
+    seen, _, _ = lens_of(zoo.of(bug).scene, 15, 4, "hit", **asked)
+    assert abs(seen.worst.off) > OFF
+    assert judged(seen, Speaker("en"))["verdict"].startswith("✗")
+
+
+def test_the_terms_behind_f_are_the_event_s_and_head_on_those_of_the_normal():
+    seen, event, _ = lens_of("materials", 20, 40, "bounce", width=64, height=64)
+    for name in ("F", "D", "G1", "G2"):
+        here, head_on = seen.terms[name]
+        assert np.array_equal(here, event.values[name])
+        assert head_on.size == np.size(here)
+    assert seen.terms["G1"][1] == seen.terms["G2"][1] == pytest.approx(1.0)
+    assert lens_of("cornell_unit", 12, 20, "bounce")[0].terms == {}
+
+
+@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("scene", ["cornell", "materials", "smooth_ball"])
+def test_a_ray_starts_off_its_own_surface_by_more_than_its_point_may_be_off_it(scene, precision):
+    for x, y in ((7, 15), (12, 18)):
+        record = recorded(scene, x, y, spp=4, precision=precision)
+        ready = tracer.load(scene).at(record.settings)
+        for k, path in enumerate(record.paths):
+            for event in path.events:
+                there = microscope.ends(ready, record, k, event.step)
+                assert (there is not None) == (event.kind.name in ("light", "bounce"))
+                if there:
+                    start = there.start
+                    assert abs(start.point) <= start.offset + 2 * start.ulp
+                    assert start.start >= start.offset - abs(start.point) - 2 * start.ulp
+                    assert start.start < 64 * start.ulp + start.aside
+
+
+def test_a_lamp_and_the_point_on_it_are_as_far_away_but_for_some_ulps():
+    record = recorded("cornell", 12, 8)
+    ready, met = tracer.load("cornell").at(record.settings), 0
+    for k, path in enumerate(record.paths):
+        for event in path.events:
+            there = microscope.ends(ready, record, k, event.step)
+            if there and there.aim and there.visible:
+                assert abs(there.aim.ulps) < 16 and there.blocker is None
+                met += 1
+            elif there and there.blocker:
+                assert there.blocker_distance < there.aim.distance
+    assert met

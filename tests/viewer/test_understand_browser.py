@@ -93,9 +93,44 @@ def test_a_factor_leads_to_the_event_that_made_it(page, inspected):
 
 def test_the_reasons_are_those_of_the_command_and_lead_to_their_events(page, inspected):
     page.get_by_test_id("tab-why").click()
+    page.get_by_test_id("why").wait_for()
     reasons = inspected["why"]
     assert page.locator("[data-testid^='reason-']").all_inner_texts() == [r["sentence"] for r in reasons]
     for k, reason in enumerate(reasons):
         page.get_by_test_id(f"reason-{k}").click()
         stands_at(page, reason["path"], reason["event"])
     assert page.get_by_test_id("why-command").inner_text().endswith("--why")
+
+
+def test_lens_and_microscope_are_those_of_the_command(page, inspected):
+    sample = inspected["samples"][0]
+    light = next(e for e in sample["events"] if e["kind"] == "light")
+    words = ("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--sample", 0, "--json", "--event")
+    document = json.loads(said(*words, light["step"]))
+    page.get_by_test_id(f"row-{light['step']}").click()
+    page.get_by_test_id("tab-vertex").click()
+    page.get_by_test_id("microscope").wait_for()
+    assert exact(page, "microscope") == document["ends"]
+    for name, w in document["lens"]["vectors"].items():
+        assert exact(page, f"vector-{name}") == w
+    tried = exact(page, "lens-tried")
+    assert [one for one in tried if one["path"] == 0] == document["lens"]["tried"]
+    assert page.get_by_test_id("lens-verdict").inner_text().startswith("✓")
+    bounce = next(e for e in sample["events"] if e["kind"] == "bounce")
+    page.get_by_test_id(f"row-{bounce['step']}").click()
+    page.locator("[data-testid=microscope]").filter(has_not_text="lamp").wait_for()
+    assert exact(page, "microscope") == json.loads(said(*words, bounce["step"]))["ends"]
+
+
+def test_a_dot_on_the_disc_leads_to_the_path_that_tried_it(page, inspected):
+    light = next(e for e in inspected["samples"][0]["events"] if e["kind"] == "light")
+    page.get_by_test_id(f"row-{light['step']}").click()
+    page.get_by_test_id("tab-vertex").click()
+    page.get_by_test_id("lens").wait_for()
+    dot = next(one for one in exact(page, "lens-tried") if one["path"] and one["direction"][2] > 0)
+    x, y, z = dot["direction"]
+    box = page.get_by_test_id("lens").bounding_box()
+    r = min(box["width"] / 2, box["height"] - 18) / 2 - 4
+    place = [v / (1 + abs(z)) ** 0.5 * r for v in (x, y)]
+    page.mouse.click(box["x"] + box["width"] / 4 + place[0], box["y"] + r + 4 + place[1])
+    stands_at(page, dot["path"], dot["event"])

@@ -21,6 +21,7 @@ def inspect(
     what_if: Annotated[tuple[str, ...], Parameter(negative=())] = (),
     why: Annotated[bool, Parameter(negative=())] = False,
     html: Path | None = None,
+    event: Annotated[int | None, Whole] = None,
     options: PathOptions | None = None,
     json: Json = False,
 ):
@@ -42,11 +43,16 @@ def inspect(
         and what it is made of by depth and technique; with --json both beside the rest.
     html
         Where the paths in 3D go, too: one page that opens without a network.
+    event
+        Look instead at the vertex of this event of the --sample: its vectors, where bounces from there go
+        against their density, the terms behind f, and both ends of its ray to the ulp.
     """
     if html is not None:
         check_place(html)
     settings, steps = settings_and_steps(options)
     loaded = scene_of(scene, options)
+    if event is not None and (sample is None or why):
+        raise TracerError("event: is one of a path; name its --sample, and leave out --why")
     if what_if:
         if sample is None:
             raise TracerError("what_if: is for one path; name its --sample")
@@ -56,6 +62,9 @@ def inspect(
     prepared = loaded.at(record.settings)
     if html is not None:
         _write(html, record, loaded)
+    if event is not None:
+        _look(record, prepared, steps, event, json)
+        return
     if json:
         print_json(record.as_dict(prepared) | (_reasons(record, prepared) if why else {}))
         return
@@ -76,6 +85,24 @@ def _write(file, record, scene):
     cursor = Cursor(record.x, record.y, lengths, path, most_giving(record.paths[path]))
     text = page(scene, record, cursor, Speaker())
     write_whole(file, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
+
+
+def _look(record, scene, steps, event, json):
+    """The vertex of an event under the lens, and its ray under the microscope."""
+    from viewer.understanding import lens, microscope
+
+    events = len(record.paths[0].events)
+    if not 0 <= event < events:
+        raise TracerError(f"event {event} is not there: events of this sample go from 0 to {events - 1}")
+    seen, ends = lens.over(scene, steps, record, 0, event), microscope.ends(scene, record, 0, event)
+    if seen is None:
+        raise TracerError(f"event {event} is before the first surface; look at a later one")
+    if json:
+        print_json({"event": event, "lens": seen.as_dict(), "ends": ends and ends.as_dict(scene)})
+        return
+    from viewer.vertex_report import print_vertex
+
+    print_vertex(record, scene, event, seen, ends)
 
 
 def _reasons(record, scene):

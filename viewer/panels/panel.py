@@ -15,6 +15,7 @@ class Panel:
     show: (session, say) -> plain values, which the template finds under the panel's name; None if it has none.
     template: Vue template; `w` holds the words whose key starts with "ui.".
     calls: window -> {name: function}, what its page may ask for beside the calls of viewer.calls.
+    lazy: a tab that takes long to fill, and is filled only while it is open; else its state is None.
     """
 
     name: str
@@ -24,3 +25,4 @@ class Panel:
     template: str
     show: Callable | None = None
     calls: Callable | None = None
+    lazy: bool = False

@@ -4,7 +4,7 @@ from viewer.panels.panel import Panel
 from viewer.understanding.why import why
 
 TEMPLATE = """
-<div class="why" data-testid="why"><h2>{{ why.head }}</h2>
+<div v-if="why" class="why" data-testid="why"><h2>{{ why.head }}</h2>
   <ol class="reasons" :aria-label="w.why_reasons"><li v-for="(r, k) in why.reasons" :key="k" :class="{strange: r.strange}">
     <button class="plain" :data-testid="'reason-' + k" :data-key="r.key" :data-count="r.count" :disabled="!r.place" :title="r.see" @click="trigger('at', r.place)">{{ r.sentence }}</button></li></ol>
   <h2>{{ w.change_command }}</h2><code class="command" data-testid="why-command">{{ why.command }}</code>
@@ -33,4 +33,4 @@ def _row(reason, say):
     }
 
 
-PANEL = Panel("why", "tab", "pixel", 35, TEMPLATE, show)
+PANEL = Panel("why", "tab", "pixel", 35, TEMPLATE, show, lazy=True)

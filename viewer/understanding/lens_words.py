@@ -1,0 +1,54 @@
+"""What is seen over a vertex in words, the same in the page and in the terminal."""
+
+from collections import Counter
+
+import numpy as np
+
+from viewer.numerals import NOTHING, short
+from viewer.understanding.draws import DRAWS, OFF
+
+NAMES = {"n": "n", "ng": "n_g", "wo": "ωₒ", "wi": "ωᵢ", "h": "h"}
+KINDS = ("bounce", "lit", "blocked", "idle")
+
+
+def judged(lens, say):
+    """Whether bounces go where the density says: {judged: good, warning or dim, verdict: words}."""
+    worst = lens.worst
+    if worst is None:
+        return {"judged": "dim", "verdict": say("lens.sharp")}
+    off = short(round(abs(worst.off), 2))
+    if abs(worst.off) < OFF:
+        return {"judged": "good", "verdict": say("lens.fits", off=off)}
+    said = say("lens.misses", off=off, observed=worst.observed, expected=_expected(worst))
+    return {"judged": "warning", "verdict": said}
+
+
+def lobes(lens, say):
+    """A line for each Dirac lobe, and for what goes nowhere."""
+    return [
+        say(
+            "lens.lobe",
+            lobe=say.optional(f"choice.{count.where}", say("lens.nowhere")),
+            observed=count.observed,
+            draws=DRAWS,
+            expected=_expected(count),
+        )
+        for count in lens.counts
+        if isinstance(count.where, str)
+    ]
+
+
+def _expected(count):
+    return NOTHING if count.expected is None else short(round(count.expected * DRAWS, 1))
+
+
+def tried(lens, say):
+    """How many directions the pixel's paths tried there."""
+    kinds = Counter(one.kind for one in lens.tried)
+    return say("lens.tried", n=len(lens.tried), **{kind: kinds[kind] for kind in KINDS})
+
+
+def vector(w, say):
+    """A shown direction (3,): its angle off n."""
+    degrees = float(np.degrees(np.arccos(np.clip(w[2], -1.0, 1.0))))
+    return say("lens.vector", degrees=short(round(degrees, 2)), cos=short(w[2]))
