@@ -165,8 +165,8 @@ def fresnel_curves(material, n=901):
     return {"cos": cos, "Rs": rs, "Rp": rp, "exact": 0.5 * (rs + rp), "schlick": schlick}, marks
 
 
-def properties(material, n=20_000, seed=0):
-    """The list of Property that any BSDF is expected to have, each checked on n random pairs or samples."""
+def physical(material, n=20_000, seed=0):
+    """The Property list of what physics asks of any BSDF, each checked on n random pairs or samples."""
     rng = np.random.default_rng(seed)
     wo, wi = _directions(rng, n), _directions(rng, n)
     f, pdf = material.eval(wo, wi), material.pdf(wo, wi)
@@ -177,11 +177,21 @@ def properties(material, n=20_000, seed=0):
         _linear(material, wo, wi, f, rng),
         _reciprocal(material, wo, wi, f),
         _conserving(material, n, seed),
-        _isotropic(material, wo, wi, f, rng),
+    ]
+    return [p._replace(figure=float(p.figure)) for p in found]
+
+
+def properties(material, n=20_000, seed=0):
+    """The list of Property that any BSDF is expected to have: what physics asks, and what the tracer does of
+    its sampler."""
+    rng = np.random.default_rng(seed)
+    wo, wi = _directions(rng, n), _directions(rng, n)
+    sampled = [
+        _isotropic(material, wo, wi, material.eval(wo, wi), rng),
         _bounded(material, n, seed),
         _sampled(material, seed),
     ]
-    return [p._replace(figure=float(p.figure)) for p in found]
+    return physical(material, n, seed) + [p._replace(figure=float(p.figure)) for p in sampled]
 
 
 def _linear(material, wo, wi, f, rng):
