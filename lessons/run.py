@@ -26,8 +26,14 @@ class Run:
 
     @cached_property
     def values(self):
-        """Name -> number, of the claim's experiment."""
-        return self.lesson.claim.experiment(self)
+        """Name -> number, of the claim's experiment. TracerError where the claim does not hold."""
+        try:
+            return self.lesson.claim.experiment(self)
+        except AssertionError as error:
+            why = f": {error}" if str(error) else ""
+            raise TracerError(
+                f"lesson {self.lesson.number}: its claim does not hold on this machine{why}"
+            ) from error
 
     def scene(self, name=None):
         """A scene that comes with castray; the lesson's own without a name."""

@@ -69,3 +69,15 @@ def test_a_name_that_is_not_there_is_told(run):
 
 def test_lessons_are_in_order():
     assert list(lessons()) == sorted(lessons())
+
+
+def test_a_claim_that_does_not_hold_is_one_line():
+    class Claim:
+        @staticmethod
+        def experiment(run):
+            raise AssertionError("2 is not 3")
+
+    broken = lesson(4).__class__(lesson(4).folder)
+    broken.claim = Claim
+    with pytest.raises(TracerError, match="lesson 4: its claim does not hold on this machine: 2 is not 3"):
+        Run(broken).value("radius")

@@ -28,6 +28,13 @@ def test_a_broken_file_is_told_and_left_alone(tmp_path, text):
     assert (tmp_path / "lessons.json").read_text(encoding="utf-8") == text
 
 
+def test_two_who_learn_at_the_same_time_lose_nothing(tmp_path):
+    viewer, terminal = Progress(tmp_path), Progress(tmp_path)
+    terminal.note(4, "rim", Done(1, 0, True))
+    viewer.note(4, "radius", Done(1, 0, True))
+    assert Progress(tmp_path).solved(4) == viewer.solved(4) == {"radius", "rim"}
+
+
 def test_a_folder_that_cannot_be_written_is_told_once(tmp_path):
     (tmp_path / "file").write_text("in the way", encoding="utf-8")
     progress = Progress(tmp_path / "file" / "deeper")

@@ -6,6 +6,7 @@ from viewers import SMALL
 from lessons import answer
 from lessons.course import lesson
 from lessons.run import Run
+from viewer.link import of_moment
 from viewer.reading import PLACES
 
 pytestmark = pytest.mark.browser
@@ -38,6 +39,9 @@ class Mouse:
 
     def __init__(self, page):
         self.page = page
+
+    def turn_to_lessons(self):
+        self.press("tab-lesson")
 
     def press(self, testid):
         self.page.get_by_test_id(testid).click()
@@ -85,6 +89,9 @@ class Keyboard:
             self.page.keyboard.press(key)
         raise AssertionError(f"Tab does not lead to {testid}")
 
+    def turn_to_lessons(self):
+        self.page.keyboard.press("l")
+
     def press(self, testid):
         self.reach(testid)
         self.page.keyboard.press("Enter")
@@ -125,8 +132,8 @@ def give(hand, page, run, task, said):
     """Give one answer, as the task asks for it."""
     if task.kind in PLACES:
         hand.press(f"there-{task.id}")
-        at = run.lesson.moments[task.at]
-        page.locator(f"[data-link*='x={at.x}&y={at.y}&path={at.path}&event={at.event}']").wait_for()
+        there = of_moment(run.lesson.moments[task.at]).write()
+        page.locator(f"[data-link='{there}']").wait_for()
         {"pixel": hand.pick, "path": hand.path, "event": hand.event}[task.kind](*map(int, said))
         where = {"pixel": "x={}&y={}&", "path": "&path={}&", "event": "&event={}"}[task.kind].format(*said)
         page.locator(f"[data-link*='{where}']").wait_for()
@@ -146,7 +153,7 @@ def give(hand, page, run, task, said):
 def test_a_new_user_solves_a_lesson(page, number, hand):
     """One wrong answer, the hint that it brings, and then every task right."""
     it, run, hand = lesson(number), Run(lesson(number)), hand(page)
-    hand.press("tab-lesson")
+    hand.turn_to_lessons()
     if page.get_by_test_id("lesson-list").count():
         hand.press("lesson-list")
         page.get_by_test_id("lesson-1").wait_for()

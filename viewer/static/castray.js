@@ -240,6 +240,7 @@
   };
 
   const KEYS = { ArrowLeft: "previous", ArrowRight: "next", ArrowUp: "up", ArrowDown: "down", Home: "first", End: "last" };
+  const TABS = { "?": "help", l: "lesson" };
   const CHOSEN = "castray-language"; // where the browser keeps it
   const CALLS = { "[": ["back", [-1]], "]": ["back", [1]], n: ["find_step", [1]], p: ["find_step", [-1]] };
   const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -265,7 +266,7 @@
         if (event.shiftKey && STEPS[event.key]) call = ["pick", [props.x + STEPS[event.key][0], props.y + STEPS[event.key][1]]];
         else if (KEYS[event.key]) call = ["go", [KEYS[event.key]]];
         else if (event.key === " " && !onButton) call = ["play", []];
-        else if (event.key === "?") trame.state.set("tab", "help");
+        else if (TABS[event.key]) trame.state.set("tab", TABS[event.key]);
         else if (CALLS[event.key]) call = CALLS[event.key];
         if (call) { event.preventDefault(); event.stopPropagation(); trame.trigger(...call); }
       }
