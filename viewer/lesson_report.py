@@ -122,7 +122,7 @@ def plain(text):
     """A short text in one line, without marks."""
     text = MOMENT.sub(r"\1", text)
     text = INLINE.sub(lambda m: spelled(m[1]), text)
-    return re.sub(r"(?<!\s)\*|\*(?!\s)|`", "", DISPLAYED.sub(lambda m: spelled(m[1]), text))
+    return re.sub(r"(?<![\s*])\*+|\*+(?![\s*])|`", "", DISPLAYED.sub(lambda m: spelled(m[1]), text))
 
 
 def print_verdict(run, task, verdict, done, finished, console):

@@ -112,3 +112,4 @@ def test_lost_progress_is_one_line_and_stops_nobody(ask, tmp_path):
 
 def test_a_product_in_a_choice_keeps_its_sign(ask):
     assert "0.9999 * r" in ask("13").stdout
+    assert "2 * sin(x / 2) ** 2" in ask("20").stdout
