@@ -28,12 +28,14 @@ def serve(
     what_if=None,
     lesson=None,
     against=None,
+    framed=False,
 ):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
     start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of; what_if:
     suppositions about the path there; lesson: the number of one to be read; against: what the picture is
-    compared with, a bug's id or a file. TracerError where port or place will not do.
+    compared with, a bug's id or a file; framed: whether pages of this machine may show it in a frame.
+    TracerError where port or place will not do.
     """
     there = None if against is None or rival.known(against) else rival.of_file(against)
     if there is not None:
@@ -45,7 +47,7 @@ def serve(
         session.suppose(what_if or {})
     except IndexError as error:
         raise TracerError(f"link: {error}: there is no such place") from None
-    _run(session, port, open_browser, lesson)
+    _run(session, port, open_browser, lesson, framed)
 
 
 def serve_lesson(number, port=None, open_browser=True):
@@ -77,7 +79,7 @@ class Scenes:
         return self.loaded[name]
 
 
-def _run(session, port, open_browser, number=None):
+def _run(session, port, open_browser, number=None, framed=False):
     from trame.app import get_server
 
     from viewer.calls import Calls
@@ -89,7 +91,7 @@ def _run(session, port, open_browser, number=None):
     scripts = [f"castray/{name}" for name in files(".js") if name != "boot.js"]
     server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
     server.state.trame__title = say("title")
-    window, door = Window(server, session, say), Door(page(say("title")))
+    window, door = Window(server, session, say), Door(page(say("title")), framed)
     calls = Calls(window).by_name
 
     def bind(web_server):

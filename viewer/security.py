@@ -17,6 +17,7 @@ from tracer.settings import TracerError
 
 STATIC = Path(__file__).parent / "static"
 REFUSED = "castray: this viewer opens only by the address that was printed when it started.\n"
+NOBODY = "'none'"
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
@@ -36,10 +37,13 @@ CALLS = (
 
 
 class Door:
-    """The middleware in front of every request, WebSocket included; behind it, `page` is the answer to /."""
+    """The middleware in front of every request, WebSocket included; behind it, `page` is the answer to /.
 
-    def __init__(self, page):
-        self.key, self.page = secrets.token_urlsafe(24), page
+    framed: whether pages of this machine may show it in a frame; they may ask by the key whether it is there.
+    """
+
+    def __init__(self, page, framed=False):
+        self.key, self.page, self.framed = secrets.token_urlsafe(24), page, framed
 
     @web.middleware
     async def middleware(self, request, handler):
@@ -47,13 +51,18 @@ class Door:
         port = request.transport.get_extra_info("sockname")[1]
         if not _from_here(request, port):
             return web.Response(status=403, text=REFUSED, headers=HEADERS)
-        opened = self._fits(request.query.get("key", "")) and request.path == "/"
+        opens = self._fits(request.query.get("key", ""))
+        if opens and self.framed and request.path == "/alive":
+            return web.Response(
+                status=204, headers=HEADERS | {"Cross-Origin-Resource-Policy": "cross-origin"}
+            )
+        opened = opens and request.path == "/"
         if not (opened or self._fits(request.cookies.get(f"castray-{port}", ""))):
             return web.Response(status=403, text=REFUSED, headers=HEADERS)
         response = await self._answer(request, handler)
         if not response.prepared:
             response.headers.update(HEADERS)
-            response.headers["Content-Security-Policy"] = _policy(port)
+            response.headers["Content-Security-Policy"] = _policy(port, self.framed)
             if opened:
                 # the answer is the page itself, not a redirect: a browser that came by a foreign link
                 # would not send a strict cookie along with the redirected request
@@ -85,7 +94,7 @@ def _from_here(request, port):
     )
 
 
-def _policy(port):
+def _policy(port, framed):
     sockets = f"ws://127.0.0.1:{port} ws://localhost:{port}"
     return "; ".join(
         (
@@ -97,7 +106,7 @@ def _policy(port):
             f"connect-src 'self' {sockets}",
             "base-uri 'none'",
             "form-action 'none'",
-            "frame-ancestors 'none'",
+            f"frame-ancestors {'http://127.0.0.1:* http://localhost:*' if framed else NOBODY}",
         )
     )
 

@@ -25,7 +25,7 @@ def box(tmp_path):
 def opened(monkeypatch):
     """The sessions that the viewer would have shown."""
     sessions = []
-    monkeypatch.setattr(viewer_app, "_run", lambda session, port, browser: sessions.append(session))
+    monkeypatch.setattr(viewer_app, "_run", lambda session, *_: sessions.append(session))
     return sessions
 
 

@@ -44,7 +44,7 @@ def recordings(tmp_path_factory):
 def opened(monkeypatch):
     """The sessions that the viewer would have shown."""
     sessions = []
-    monkeypatch.setattr(viewer_app, "_run", lambda session, port, browser: sessions.append(session))
+    monkeypatch.setattr(viewer_app, "_run", lambda session, *_: sessions.append(session))
     return sessions
 
 
