@@ -14,7 +14,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
 from viewer.solids import EMPTY
-from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint
+from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint, walls
 from viewer.traces import Strokes
 
 COMPANIONS = ("what_if", "twin")  # paths beside the selected one
@@ -120,9 +120,9 @@ class Stage:
             self.furnish(scene)
             return
         places = {shape.name: index for index, shape in enumerate(scene.shapes)}
-        fitted = []
+        fitted, planes = [], walls([surface for surface, _ in self._surfaces], *self._bounds)
         for before, layer in self._surfaces:
-            surface = Surface(scene, places[before.name], *self._bounds)
+            surface = Surface(scene, places[before.name], *self._bounds).beside(planes, self.size)
             if surface.vertices.tobytes() != before.vertices.tobytes():
                 layer.show(surface.vertices, surface.faces)
             layer.look(surface.colour, surface.opacity)

@@ -40,8 +40,12 @@ class Surface:
         if self.wall:
             self.faces = self._turned((low + high) / 2)
         self.one_sided = self.wall or self._turn_outwards()
+
+    def beside(self, planes, size):
+        """This surface without what lies in the planes of walls: the two would fight for the pixel."""
         if not self.wall:
-            self.faces = self.faces[~_pressed(self.vertices[self.faces], low, high)]
+            self.faces = self.faces[~_pressed(self.vertices[self.faces], planes, size)]
+        return self
 
     def _turned(self, point):
         """The faces, each turned towards a point."""
@@ -70,7 +74,20 @@ def surfaces(scene):
     """Every shape of the scene; what is seen through comes last, over all the rest."""
     low, high = bounds(scene)
     shapes = [Surface(scene, index, low, high) for index in range(len(scene.shapes))]
-    return sorted(shapes, key=lambda s: not s.wall)
+    planes, size = walls(shapes, low, high), np.linalg.norm(high - low)
+    return sorted((shape.beside(planes, size) for shape in shapes), key=lambda s: not s.wall)
+
+
+def walls(surfaces, low, high):
+    """The planes in which walls lie, as pairs of an axis and a coordinate."""
+    found, slack = set(), 0.01 * np.linalg.norm(high - low)
+    for surface in surfaces:
+        if surface.wall:
+            mine_low, mine_high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
+            around = np.all(mine_high - mine_low > 0.9 * (high - low))
+            for axis in np.flatnonzero(around | (mine_high - mine_low < slack)):
+                found |= {(int(axis), float(mine_low[axis])), (int(axis), float(mine_high[axis]))}
+    return found
 
 
 def bounds(scene):
@@ -105,7 +122,9 @@ def _is_wall(vertices, low, high):
     return bool(flat.any() or np.all(mine_high - mine_low > 0.9 * (high - low)))
 
 
-def _pressed(triangles, low, high):
-    """Which triangles (F, 3, 3) lie flat on the scene's bounds: there they would fight with a wall."""
-    slack = 0.01 * np.linalg.norm(high - low)
-    return ((triangles - low < slack).all(axis=1) | (high - triangles < slack).all(axis=1)).any(axis=1)
+def _pressed(triangles, planes, size):
+    """Which triangles (F, 3, 3) lie in one of some planes, in a scene of that size."""
+    found = np.zeros(len(triangles), bool)
+    for axis, place in planes:
+        found |= (np.abs(triangles[..., axis] - place) < 1e-4 * size).all(axis=1)
+    return found

@@ -1,0 +1,25 @@
+"""What the 3D view draws of a scene: whole things, but for what lies flat on a wall."""
+
+import tracer
+from viewer.surfaces import surfaces
+
+
+def lacking(name):
+    """Shape -> how many of its triangles are not drawn."""
+    scene = tracer.load(name)
+    whole = {shape.name: len(shape.triangles()[1]) for shape in scene.shapes}
+    return {s.name: whole[s.name] - len(s.faces) for s in surfaces(scene)}
+
+
+def test_balls_in_the_open_are_drawn_whole():
+    assert set(lacking("white_furnace").values()) == {0}
+
+
+def test_balls_on_a_wide_floor_lose_no_more_than_where_they_stand():
+    whole = len(tracer.load("sky").shapes[1].triangles()[1])
+    assert all(0 < many < 0.05 * whole for name, many in lacking("sky").items() if name != "floor")
+
+
+def test_boxes_on_the_floor_are_drawn_without_their_bottoms():
+    missing = lacking("cornell_unit")
+    assert missing["small_box"] == 2 and missing["floor"] == 0
