@@ -2,7 +2,6 @@
 in step."""
 
 import re
-import shlex
 from collections import Counter
 from functools import cache
 
@@ -18,11 +17,7 @@ from lessons.lesson import KINDS
 from lessons.plain import spelled
 from lessons.run import Run
 from lessons.words import MOMENT, PLACEHOLDER, TaskWords, blocks, labels
-from tracer import built_in_scenes
 from tracer.events import KINDS as EVENTS
-from viewer.cli import command_line
-from viewer.options import scene_of, settings_and_steps
-from viewer.words import Speaker
 
 ALL = tuple(lessons())
 each_lesson = pytest.mark.parametrize("number", ALL)
@@ -107,19 +102,6 @@ def test_every_text_is_filled_in_and_shown_in_the_terminal_and_as_html(number, l
         for kind, content, shared in blocks(filled):
             latex = shared[:1] if kind.startswith("math") else re.findall(r"\$([^$]+)\$", content)
             assert all(spelled(formula) for formula in latex)
-
-
-@each_lesson
-def test_every_command_that_a_text_gives_is_understood(number):
-    """Its words, its settings with their bug, its scene with what is said differently; it is not run."""
-    app = command_line(Speaker())
-    for text in texts(number, "en").values():
-        for line in re.findall(r"`castray (--?\w[^`]*|[a-z][^`]*)`", text):
-            given = app.parse_args(shlex.split(line), exit_on_error=False, print_error=False)[1].arguments
-            if "options" in given:
-                settings_and_steps(given["options"])
-            if given.get("scene") in built_in_scenes():
-                scene_of(given["scene"], given.get("options"))
 
 
 @each_moment
