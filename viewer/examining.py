@@ -35,12 +35,12 @@ class Chart:
         """There is nothing to let go of."""
 
 
-def planned(settings):
-    """The Settings of the paths that are examined, and the numbers (P,) of their pixels."""
+def planned(settings, most=MOST_PATHS):
+    """The Settings of about so many paths that are examined, and the numbers (P,) of their pixels."""
     spp = min(settings.spp, MOST_SAMPLES)
     spp = max(spp - spp % settings.replicates, min(settings.spp, settings.replicates))
     few, pixels = settings.at_spp(spp), settings.width * settings.height
-    number = min(pixels, max(1, MOST_PATHS // spp))
+    number = min(pixels, max(1, most // spp))
     step = round(GOLDEN * pixels)
     while gcd(step, pixels) > 1:
         step += 1

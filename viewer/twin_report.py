@@ -7,7 +7,15 @@ from rich.text import Text
 from lessons.zoo import several
 from viewer.numerals import luminance
 from viewer.twin_shares import decimals_of, print_shares, short_names, table
-from viewer.twin_words import event_of, in_digits, kind_of, told_apart, what_differs
+from viewer.twin_words import (
+    all_that_differs,
+    event_of,
+    in_digits,
+    kind_of,
+    range_of,
+    told_apart,
+    what_differs,
+)
 from viewer.words import Speaker
 from viewer.zoo import title_of
 
@@ -92,8 +100,10 @@ def _print_causes(twin, names, bug, say, console):
     decimals = decimals_of(c.difference for c in twin.causes if c.difference)
     for cause in twin.causes[:_CAUSES]:
         brought = [f"{v:+.{decimals}f}" for v in cause.difference or ()] or ["", "", ""]
-        depths = _range(cause.depths, say)
-        rows.add_row(event_of(cause.kinds, say), _also(cause, say), str(cause.pairs), depths, *brought)
+        depths = range_of(cause.depths, say)
+        rows.add_row(
+            event_of(cause.kinds, say), all_that_differs(cause, say), str(cause.pairs), depths, *brought
+        )
     console.print(rows)
     rest = twin.causes[_CAUSES:]
     if rest:
@@ -102,18 +112,6 @@ def _print_causes(twin, names, bug, say, console):
     if twin.told is not None:
         console.print(Text(say("twin.brought", one=names[0], other=names[1]), style="dim"))
     console.print()
-
-
-def _also(cause, say):
-    """What differs first, and what else does in most of the pairs."""
-    others = [name for name, count in cause.also.items() if 2 * count >= cause.pairs]
-    what = what_differs(cause.what, say)
-    return say("twin.then", field=what, others=say.listed(*others)) if others else what
-
-
-def _range(depths, say):
-    low, high = min(depths), max(depths)
-    return str(low) if low == high else say("twin.to", low=low, high=high)
 
 
 def _place(parting, say):

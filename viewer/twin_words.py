@@ -23,6 +23,19 @@ def what_differs(what, say):
     return say(_SAID[what]) if what in _SAID else what
 
 
+def all_that_differs(cause, say):
+    """What differs first in the pairs of a Cause, and what else does in most of them."""
+    others = [name for name, count in cause.also.items() if 2 * count >= cause.pairs]
+    what = what_differs(cause.what, say)
+    return say("twin.then", field=what, others=say.listed(*others)) if others else what
+
+
+def range_of(depths, say):
+    """From the least to the largest of some depths."""
+    low, high = min(depths), max(depths)
+    return str(low) if low == high else say("twin.to", low=low, high=high)
+
+
 def told_apart(differing, scenes, say):
     """Both values of a Number with so many digits that they do not read alike."""
     field = differing.field

@@ -112,6 +112,21 @@ def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
     assert set(names) == set(there[0]["numbers"])
 
 
+def test_where_the_pictures_paths_part_is_what_castray_twin_says(page):
+    page.get_by_test_id("compare-search").click()
+    page.get_by_test_id("compare-causes").wait_for(timeout=60_000)
+    twins = said("twin", "cornell_unit", *SMALL, "--bug", "D01", "--json")
+    shown = [
+        (int(row.get_attribute("data-pairs")), row.get_attribute("data-what"))
+        for row in page.locator("[data-testid=compare-causes] button").all()
+    ]
+    assert shown == [(cause["pairs"], cause["what"]) for cause in twins["causes"]]
+    page.get_by_test_id("cause-0").click()
+    at = twins["causes"][0]["example"]
+    table = f"[data-pixel='{at['x']},{at['y']}'][data-path='{at['sample']}']"
+    page.locator(f"{table} [data-testid=row-{at['steps'][0]}][data-now=true]").wait_for()
+
+
 def test_another_bug_is_chosen_and_compared(page):
     page.get_by_test_id("rival").select_option("E01")
     page.get_by_test_id("compare-b").wait_for()

@@ -5,9 +5,10 @@ from typing import Any
 
 from tracer.settings import TracerError
 from tracer.testing import compare
-from viewer.comparing import maps, rival
+from viewer.comparing import maps, rival, twins
 from viewer.comparing.twins import PixelTwin
 from viewer.render import Painter
+from viewer.worker import Stopped
 
 WIPE = "wipe"
 
@@ -27,6 +28,8 @@ class Desk:
     path: Any = None  # the recorded path that `beside` is of
     beside: Any = None
     wiped: bool = False  # whether both pictures are shown with a wipe between them
+    whole: Any = None  # the Twin of paths from all over the picture
+    searching: bool = False  # whether it is being found
 
     def close(self):
         """Give up the picture that is being rendered."""
@@ -62,10 +65,10 @@ def beside(session):
 
 
 class Comparer:
-    """What the page may ask. window: shows and covers."""
+    """What the page may ask. window: shows and covers; worker: does what takes long."""
 
-    def __init__(self, window):
-        self.window, self.session, self.view = window, window.session, WIPE
+    def __init__(self, window, worker):
+        self.window, self.session, self.worker, self.view = window, window.session, worker, WIPE
         window.followers.append(self)
 
     @property
@@ -106,7 +109,41 @@ class Comparer:
         found = self.desk.twin.found.largest if self.desk and self.desk.twin else ()
         if type(index) is not int or not 0 <= index < len(found):
             raise TracerError(f"compare: path {str(index)[:20]!r} is not one of the {len(found)} listed")
-        parting = found[index]
+        self._go(found[index])
+
+    def search(self):
+        """Find where paths from all over the picture part."""
+        desk, session = self.desk, self.session
+        if desk is None or not desk.rival.traced:
+            raise TracerError("compare: there is nothing whose paths could be traced again")
+        if desk.searching:
+            return
+        desk.searching, desk.error = True, None
+        scene, settings = session.scene, session.settings
+
+        def stopped():
+            if session.desk.get("compare") is not desk:
+                raise Stopped
+
+        def done(found):
+            desk.searching, desk.whole = False, found
+            self.window.show("compare")
+
+        def failed(error):
+            desk.searching, desk.error = False, error
+            self.window.show("compare")
+
+        self.worker.do(lambda: twins.whole(scene, settings, desk.rival, stopped), done, failed)
+        self.window.show("compare")
+
+    def cause(self, index):
+        """Go to the example of one of the ways in which paths part."""
+        causes = self.desk.whole.causes if self.desk and self.desk.whole else ()
+        if type(index) is not int or not 0 <= index < len(causes):
+            raise TracerError(f"compare: way {str(index)[:20]!r} is not one of the {len(causes)} there are")
+        self._go(causes[index].example)
+
+    def _go(self, parting):
         self.window.go_to(parting.place(parting.steps[0]))
 
     def begun(self):

@@ -7,10 +7,12 @@ import numpy as np
 
 import tracer
 from lessons.zoo import planted
-from tracer.trace import gather
+from tracer.trace import gather, join, parts
 from tracer.twin import compare
 from viewer.comparing.rival import Rival
+from viewer.examining import planned
 
+MOST_PATHS = 1 << 15  # compared of a whole picture: a few seconds
 LISTED = 12  # paths of the pixel that are named, those that differ most first
 NAMES = ("a", "b")
 
@@ -28,6 +30,20 @@ class Beside:
         """The twin's event where it parts, its last where it is over before that."""
         step = self.parting.steps[1]
         return len(self.path.events) - 1 if step is None else step
+
+
+def whole(scene, settings, rival: Rival, stopped):
+    """The Twin of paths from all over the picture. stopped(): raises to give up. Raises TracerError."""
+    traces = []
+    for its, asked in ((scene, settings), (rival.scene, rival.settings)):
+        few, pixels = planned(asked, MOST_PATHS)
+        found = []
+        for part in parts(its, few, planted(few), pixels):
+            stopped()
+            found.append(part)
+        traces.append(join(found))
+    mine, its = traces
+    return compare(mine, its, NAMES, most=0)
 
 
 class PixelTwin:

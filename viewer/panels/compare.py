@@ -6,9 +6,12 @@ from viewer import diff
 from viewer.comparing import maps
 from viewer.comparing.comparer import WIPE, Comparer, beside, desk_of
 from viewer.comparing.rival import RIGHT
+from viewer.comparing.twins import MOST_PATHS
+from viewer.examining import planned
 from viewer.numerals import several, short
 from viewer.panels.panel import Panel
-from viewer.twin_words import event_of, told_apart, what_differs
+from viewer.twin_words import all_that_differs, event_of, range_of, told_apart, what_differs
+from viewer.worker import Worker
 from viewer.zoo import title_of
 
 TEMPLATE = """
@@ -37,6 +40,11 @@ TEMPLATE = """
   <template v-if="compare.paths"><p data-testid="compare-paths" :data-differing="compare.paths.differing">{{ compare.paths.said }}</p>
   <ol v-if="compare.paths.rows.length" class="hits" :aria-label="w.compare_paths"><li v-for="(row, k) in compare.paths.rows" :key="k"><button :data-testid="'parting-' + k" :class="{now: row.now}"
     :aria-current="row.now ? 'true' : null" @click="trigger('compare_path', [k])"><span class="number">{{ row.path }}</span><span>{{ row.event }}</span><span class="dim">{{ row.what }}</span></button></li></ol></template>
+  <template v-if="compare.whole"><div class="between"><h2>{{ w.compare_whole }}</h2>
+    <button data-testid="compare-search" :disabled="compare.whole.busy" @click="trigger('compare_search')">{{ w.compare_search }}</button></div>
+  <p class="dim" role="status"><span v-if="compare.whole.busy" class="busy" aria-hidden="true"></span>{{ compare.whole.said }}</p>
+  <ol v-if="compare.whole.causes.length" class="hits causes" :aria-label="w.compare_whole" data-testid="compare-causes"><li v-for="(c, k) in compare.whole.causes" :key="k">
+    <button :data-testid="'cause-' + k" :data-pairs="c.pairs" :data-what="c.key" :title="w.compare_cause" @click="trigger('compare_cause', [k])"><span class="number">{{ c.pairs }}</span><span>{{ c.event }}</span><span class="dim">{{ c.what }}</span></button></li></ol></template>
   </template>
 </div>
 """
@@ -44,12 +52,14 @@ TEMPLATE = """
 
 def calls(window):
     """What this panel's page may ask for."""
-    comparer = Comparer(window)
+    comparer = Comparer(window, Worker(window.back))
     return {
         "compare": comparer.choose,
         "compare_view": comparer.look,
         "compare_part": comparer.part,
         "compare_path": comparer.go,
+        "compare_search": comparer.search,
+        "compare_cause": comparer.cause,
     }
 
 
@@ -57,7 +67,15 @@ def show(session, say):
     """Both pixels, the verdict on both pictures, and where the selected path parts from its twin."""
     desk = desk_of(session)
     shown_ = {"against": session.against, "choices": _choices(session, say), "error": "", "views": []}
-    shown_ |= {"view": "", "pixel": [], "verdict": None, "untwinned": "", "twin": None, "paths": None}
+    shown_ |= {
+        "view": "",
+        "pixel": [],
+        "verdict": None,
+        "untwinned": "",
+        "twin": None,
+        "paths": None,
+        "whole": None,
+    }
     if desk is None:
         return shown_
     there = beside(session)
@@ -69,7 +87,8 @@ def show(session, say):
     if desk.twin is None:
         shown_["untwinned"] = say.error(str(desk.untwinned)) if desk.untwinned else say("compare.no_paths")
         return shown_
-    return shown_ | {"twin": _twin(there, desk, say), "paths": _paths(session, desk, say)}
+    more = {"paths": _paths(session, desk, say), "whole": _whole(session, desk, say)}
+    return shown_ | {"twin": _twin(there, desk, say)} | more
 
 
 def _choices(session, say):
@@ -187,6 +206,26 @@ def _paths(session, desk, say):
     ]
     words = say("compare.differing", differing=found.differing, n=found.pairs)
     return {"differing": found.differing, "said": words, "rows": rows}
+
+
+def _whole(session, desk, say):
+    """In which ways paths from all over the picture part, the most frequent first."""
+    few, pixels = planned(session.settings, MOST_PATHS)
+    found, said = desk.whole, say("compare.would", n=few.spp * pixels.size)
+    if desk.searching:
+        said = say("compare.searching")
+    elif found is not None:
+        said = say("compare.parted", differing=found.differing, n=found.pairs)
+    causes = [
+        {
+            "pairs": c.pairs,
+            "key": c.what,
+            "event": say("compare.cause", event=event_of(c.kinds, say), depth=range_of(c.depths, say)),
+            "what": all_that_differs(c, say),
+        }
+        for c in (found.causes if found else ())
+    ]
+    return {"busy": desk.searching, "said": said, "causes": causes}
 
 
 PANEL = Panel("compare", "tab", "path", 45, TEMPLATE, show, calls)
