@@ -49,7 +49,7 @@ def print_bug(bug, console):
         "shows": bug.command,
         "alike": say.listed(*others),
         "here": bug.note,
-        "explained by": f"castray lesson {about(bug.id)}" if about(bug.id) else "",
+        "lesson": f"castray lesson {about(bug.id)}" if about(bug.id) else "",
     }
     table = Table(box=None, show_header=False)
     table.add_column(no_wrap=True, style="dim")

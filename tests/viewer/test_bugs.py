@@ -7,6 +7,7 @@ import pytest
 from suite import castray
 
 import tracer
+from lessons.course import about
 from lessons.zoo import FAMILIES, ZOO
 
 NARROW = {"COLUMNS": "80"}
@@ -28,7 +29,8 @@ def test_one_bug_is_told_in_full():
     assert max(map(len, done.stdout.splitlines())) <= 80
     said = " ".join(done.stdout.split())
     bug = ZOO["E01"]
-    for text in (bug.title, bug.symptom, bug.wrong, bug.law, bug.command, "cannot be told from E04"):
+    lesson = f"castray lesson {about('E01')}"
+    for text in (bug.title, bug.symptom, bug.wrong, bug.law, bug.command, "cannot be told from E04", lesson):
         assert text in said
 
 

@@ -77,6 +77,7 @@ WORDS = {
         "bugs.shows": "shows in",
         "bugs.alike": "cannot be told from",
         "bugs.here": "here",
+        "bugs.lesson": "explained in",
     },
     "zh": {
         "command": "路径追踪的逐步调试器：点击一个像素，沿它的路径走，读出每个数值。",
@@ -151,5 +152,6 @@ WORDS = {
         "bugs.shows": "用此重现",
         "bugs.alike": "无法与之区分",
         "bugs.here": "说明",
+        "bugs.lesson": "讲解见",
     },
 }
