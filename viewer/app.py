@@ -57,8 +57,9 @@ def serve_lesson(number, port=None, open_browser=True):
 
 
 def serve_link(text, port=None, open_browser=True, against=None):
-    """Open the viewer where a link points."""
+    """Open the viewer where a link points; against: another thing to compare with than the link names."""
     asked = links.parse(text)
+    against = against or asked.compare or None
     scene = changed(Scenes().find(asked.scene), asked.changes)
     serve(scene, asked.settings, port, open_browser, asked.place, what_if=asked.what_if, against=against)
 

@@ -3,14 +3,16 @@
 from dataclasses import dataclass, field, fields
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
+from lessons.zoo import ZOO
 from tracer import what_if
 from tracer.scene_file.change import parse as read_changes
 from tracer.scene_file.change import plain, written
 from tracer.settings import Settings, TracerError
 
+RIGHT = "right"  # the tracer without a bug
 PLACE = ("x", "y", "path", "event")
 LONGEST = 4096
-OTHERS = ("set", "what_if")  # several texts each
+OTHERS = ("set", "what_if", "compare")  # the first two are several texts each
 BETWEEN = ";"  # two of them
 DEFAULTS = {f.name: f.default for f in fields(Settings)}
 TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
@@ -19,13 +21,15 @@ TEXTS = {f.name for f in fields(Settings) if f.type in (str, str | None)}
 @dataclass(frozen=True)
 class Link:
     """What a link says. place: x, y, path, event, or None where it names no pixel. changes: of the scene's
-    words, {key: value}; what_if: suppositions about the path, {(depth, kind): value}."""
+    words, {key: value}; what_if: suppositions about the path, {(depth, kind): value}; compare: the tracer
+    that it is compared with, "right" or a bug's id."""
 
     scene: str
     settings: Settings
     place: tuple | None = None
     changes: dict = field(default_factory=dict)
     what_if: dict = field(default_factory=dict)
+    compare: str = ""
 
     def write(self):
         """The part after the # of an address; options that have their default are left out."""
@@ -35,6 +39,8 @@ class Link:
             said["set"] = BETWEEN.join(written(self.changes))
         if self.what_if:
             place["what_if"] = BETWEEN.join(what_if.written(self.what_if))
+        if self.compare:
+            said["compare"] = self.compare
         return urlencode({"scene": self.scene, **said, **place}, quote_via=quote)
 
 
@@ -75,7 +81,14 @@ def parse(text):
         if place is None:
             raise TracerError("link: what_if without x and y of the pixel")
         supposed = what_if.parse(words["what_if"].split(BETWEEN))
-    return Link(words["scene"], settings, place, changes, supposed)
+    return Link(words["scene"], settings, place, changes, supposed, _compared(words.get("compare", "")))
+
+
+def _compared(name):
+    """What a link may compare with: tracers only, no files."""
+    if name and name != RIGHT and not all(bug in ZOO for bug in name.split(",")):
+        raise TracerError(f"link: compare={name[:80]!r} is neither {RIGHT!r} nor a bug of the zoo")
+    return name
 
 
 def _setting(name, text):

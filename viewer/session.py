@@ -80,7 +80,16 @@ class Session:
                 self.adopt(scene, settings)
             self.stand(link.place)
             self.suppose(link.what_if)
+        self._compare(link.compare)
         return renewed
+
+    def _compare(self, name):
+        """Compare with the tracer that a link names; without one, only a file stays compared with."""
+        name = name or (self.against if self.against in self.rivals else "")
+        if name != self.against:
+            self.against, before = name, self.desk.pop("compare", None)
+            if before:
+                before.close()
 
     def alter(self, scene, settings):
         """Turn to the same scene said differently, or to other settings, and stay as near as can be to the
@@ -162,6 +171,7 @@ class Session:
             place,
             self.scene.definition.changes,
             self.suppositions if c else {},
+            "" if self.against in self.rivals else self.against,
         )
 
     @property

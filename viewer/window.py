@@ -155,6 +155,8 @@ class Window:
                 self.furnish()
                 self.state.rgb = b""
             self.paint()
+        else:
+            self._begin()
         self.refresh("picture")
 
     def _push_stage(self):
@@ -231,6 +233,9 @@ class Window:
 
         self.painter = painter
         painter.start(here(self._painted), here(self._progress), here(self._failed))
+        self._begin()
+
+    def _begin(self):
         for follower in self.followers:
             follower.begun()
 

@@ -127,8 +127,19 @@ def test_where_the_pictures_paths_part_is_what_castray_twin_says(page):
     page.locator(f"{table} [data-testid=row-{at['steps'][0]}][data-now=true]").wait_for()
 
 
+def test_a_link_keeps_what_is_compared_with(page):
+    link = "scene=cornell_unit&width=16&height=16&spp=2&x=5&y=9&compare=E01"
+    page.evaluate("link => window.trame.trigger('open', [link])", link)
+    page.locator("[data-testid=castray][data-link*='x=5'][data-link*='compare=E01']").wait_for()
+    assert page.get_by_test_id("rival").input_value() == "E01"
+    page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("share").locator("summary").click()
+    assert "compare=E01" in page.get_by_test_id("share-link").input_value()
+    page.keyboard.press("Escape")
+
+
 def test_another_bug_is_chosen_and_compared(page):
-    page.get_by_test_id("rival").select_option("E01")
+    page.get_by_test_id("rival").select_option("D10")
     page.get_by_test_id("compare-b").wait_for()
     page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
     page.get_by_test_id("rival").select_option("")

@@ -21,6 +21,11 @@ def test_a_link_keeps_who_looks_for_triangles():
     assert "accel=embree" in link.write() and parse(link.write()) == link
 
 
+def test_a_link_keeps_the_tracer_that_is_compared_with():
+    link = Link("furnace", Settings(), (1, 2, 0, 0), compare="D01")
+    assert "compare=D01" in link.write() and parse(link.write()) == link
+
+
 def test_a_whole_address_is_a_link():
     assert parse("http://127.0.0.1:8123/#" + MOMENT.write()) == MOMENT
     assert is_link("http://127.0.0.1:8123/#" + MOMENT.write())
@@ -56,6 +61,7 @@ def test_a_scene_file_is_no_link():
         "scene=a&spp=0",
         "scene=a&jitter=1",
         "scene=a&integrator=bdpt",
+        "scene=a&compare=/etc/passwd",
         "scene=a&x=99999999999999999999&y=1",
         "scene=" + "a" * 5000,
         "scene=a&" + "&".join(f"x{k}=1" for k in range(99)),

@@ -170,6 +170,7 @@ BAD = [
     ("trame.trigger", ["doctor_go", [-1], {}]),
     ("trame.trigger", ["doctor_where", [0], {}]),
     ("trame.trigger", ["compare", ["/etc/passwd"], {}]),
+    ("trame.trigger", ["open", ["scene=cornell_unit&compare=/etc/passwd"], {}]),
     ("trame.trigger", ["compare", [["D01"]], {}]),
     ("trame.trigger", ["compare_view", [7], {}]),
     ("trame.trigger", ["compare_path", [0], {}]),

@@ -11,9 +11,8 @@ from tracer.settings import TracerError
 from tracer.trace import folder
 from tracer.trace.reading import picture as recorded_picture
 from tracer.trace.stored_scene import restore
+from viewer.link import RIGHT
 from viewer.recorded import is_recording
-
-RIGHT = "right"  # the tracer without a bug
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from tracer.recorder import number
 from viewer import diff
 from viewer.comparing import maps
 from viewer.comparing.comparer import WIPE, Comparer, beside, desk_of
-from viewer.comparing.rival import RIGHT
 from viewer.comparing.twins import MOST_PATHS
 from viewer.examining import planned
+from viewer.link import RIGHT
 from viewer.numerals import several, short
 from viewer.panels.panel import Panel
 from viewer.twin_words import all_that_differs, event_of, range_of, told_apart, what_differs

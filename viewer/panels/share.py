@@ -28,7 +28,9 @@ def show(session, say):
     if session.recording is not None:
         command = of_recording(session.recording.path, (c.x, c.y, session.path.sample, c.event))
     else:
-        command = view_command(session.scene.name, settings, place, session.scene.definition.changes)
+        command = view_command(
+            session.scene.name, settings, place, session.scene.definition.changes, session.link.compare
+        )
     return {"command": command or "", "files": files}
 
 
