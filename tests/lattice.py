@@ -54,9 +54,9 @@ class Chain:
         return (errors / np.where(scale > 0.0, scale, 1.0)).sum(axis=1)
 
 
-def grown(chains, choose):
-    """{(use, depth, place): component}, each chosen by choose(key, met, own): chains with what it meets,
-    and with those of its own use."""
+def grown(chains, choose, depths):
+    """{(use, depth, place): component} of so many depths, each chosen by choose(key, met, own): chains with
+    what it meets, and with those of its own use."""
     chosen = {}
 
     def of(use, depth, places):
@@ -75,7 +75,7 @@ def grown(chains, choose):
 
     of("film", 0, (0, 1))
     go_on("film", 0, {0: 1.0, 1: 1.0})
-    for depth in range(DEPTHS):
+    for depth in range(depths):
         for use in ("bsdf", "light"):
             of(use, depth, (1, 2, 0))
         of("roulette", depth, (0,))
@@ -86,10 +86,11 @@ def grown(chains, choose):
     return chosen
 
 
-def searched():
+def searched(depths=DEPTHS):
     """Components below 2^SEARCHED, all odd, none equal to or mirrored by another, for up to that many points.
 
-    Each is the best of the quarter that does best within its own use.
+    Each is the best of the quarter that does best within its own use. The first depths' do not hang on how
+    many there are.
     """
     all_of, used = np.arange(1, 2**SEARCHED, 2), []
 
@@ -106,11 +107,12 @@ def searched():
         used.extend((best, 2**SEARCHED - best))
         return best
 
-    return grown([Chain(m) for m in range(2, SEARCHED + 1)], choose)
+    return grown([Chain(m) for m in range(2, SEARCHED + 1)], choose, depths)
 
 
 def extended(components):
     """The same with further bits, so that up to 2^EXTENDED points are spread as well."""
+    depths = 1 + max(depth for _, depth, _ in components)
     for m in range(SEARCHED + 1, EXTENDED + 1):
         known = components
 
@@ -118,7 +120,7 @@ def extended(components):
             pair = known[key] + np.array([0, 2 ** (m - 1)])
             return int(pair[np.argmin(met[0].scores(pair))])
 
-        components = grown([Chain(m)], choose)
+        components = grown([Chain(m)], choose, depths)
     return components
 
 

@@ -1,14 +1,18 @@
 """`castray bugs`: the zoo as a list that fits a narrow terminal, one bug in full, and pictures."""
 
+import io
 import json
 
 import numpy as np
 import pytest
+from rich.console import Console
 from suite import castray
 
 import tracer
 from lessons.course import about
 from lessons.zoo import FAMILIES, ZOO
+from viewer.words import LANGUAGES, use
+from viewer.zoo import print_bug
 
 NARROW = {"COLUMNS": "80"}
 
@@ -32,6 +36,19 @@ def test_one_bug_is_told_in_full():
     lesson = f"castray lesson {about('E01')}"
     for text in (bug.title, bug.symptom, bug.wrong, bug.law, bug.command, "cannot be told from E04", lesson):
         assert text in said
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("bug", ZOO)
+def test_every_bug_is_told_in_every_language(bug, language):
+    use(language)
+    try:
+        said = io.StringIO()
+        print_bug(ZOO[bug], Console(file=said, width=200))
+        assert bug in said.getvalue()
+        assert about(bug) is None or f"castray lesson {about(bug)}" in said.getvalue()
+    finally:
+        use("en")
 
 
 def test_json_has_what_the_list_has_and_more():
