@@ -3,8 +3,6 @@
 import os
 import subprocess
 import sys
-from contextlib import redirect_stdout, suppress
-from io import StringIO
 from pathlib import Path
 
 import forked
@@ -46,12 +44,3 @@ def castray(*words, cwd=ROOT, env=None, timeout=300):
         timeout=timeout,
         check=False,
     )
-
-
-def said(*words):
-    """What `castray WORDS` prints, run in this process: no Python has to start for it."""
-    from viewer.cli import main
-
-    with redirect_stdout(StringIO()) as out, suppress(SystemExit):
-        main([str(word) for word in words])
-    return out.getvalue()

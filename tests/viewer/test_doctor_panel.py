@@ -1,4 +1,4 @@
-"""The doctor's panel: what it shows is what castray doctor says, and three clicks lead to the cause."""
+"""The doctor's panel: what it shows is what castray doctor says."""
 
 import json
 
@@ -8,13 +8,9 @@ from suite import castray
 from viewers import SMALL
 
 import tracer
-from lessons import zoo
-from lessons.course import about
 from viewer import examining
-from viewer.link import Link
 
 pytestmark = pytest.mark.browser
-STORIES = {"black stripes": "D01", "white dots": "E01", "too bright": "D11"}
 
 
 @pytest.fixture(scope="module")
@@ -67,26 +63,6 @@ def test_the_panel_shows_what_castray_doctor_says(page):
     page.get_by_test_id("finding-where-0").click()
     page.get_by_test_id("legend-title").filter(has_text=said["findings"][0]["rule"]).wait_for()
     page.get_by_test_id("uncover").click()
-
-
-@pytest.mark.parametrize("picture", STORIES)
-def test_from_a_strange_picture_to_the_named_cause_in_three_clicks(page, picture):
-    bug = zoo.of(STORIES[picture])
-    link = Link(bug.scene, bug.asked(width=48, height=48, spp=8, bug=bug.id), (24, 24, 0, 0)).write()
-    page.evaluate("link => window.trame.trigger('open', [link])", link)
-    page.locator(f"[data-testid=castray][data-link='{link}']").wait_for()
-    assert page.get_by_test_id("finding-0").count() == 0  # nothing of the picture before is left
-    examine(page)
-    card = page.get_by_test_id("finding-0")
-    assert any(known in card.get_attribute("data-bug") for known in zoo.alike(bug.id))
-    page.get_by_test_id("finding-go-0").click()
-    page.locator("[data-testid=finding-0].now").wait_for()
-    assert page.get_by_test_id("finding-event-0").inner_text().startswith("pixel (")
-    if about(bug.id) is not None:
-        place = page.get_by_test_id("castray").get_attribute("data-link")
-        page.get_by_test_id("finding-lesson-0").click()
-        page.locator(f"[data-testid=lesson][data-number='{about(bug.id)}'] .task").first.wait_for()
-        assert page.get_by_test_id("castray").get_attribute("data-link") == place  # nobody is led away
 
 
 def test_a_right_picture_breaks_no_law(page):

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from suite import said
+from suite import castray
 
 import tracer
 from lessons import zoo
@@ -178,11 +178,11 @@ def test_every_reason_is_a_sentence_of_its_language(language):
 
 def test_the_command_says_why_in_words_and_in_json():
     words = ("inspect", "cornell_unit", "--pixel", 12, 16, "--size", 24, 24, "--spp", 6, "--why")
-    document = json.loads(said(*words, "--json"))
+    document = json.loads(castray(*words, "--json").stdout)
     record = recorded("cornell_unit", 12, 16)
     expected = [r.as_dict(Speaker("en")) for r in why(record, tracer.load("cornell_unit"))]
     assert document["why"] == expected and document["made_of"] == []
-    text = said(*words)
+    text = castray(*words).stdout
     for reason in expected:
         assert reason["sentence"] in text
 

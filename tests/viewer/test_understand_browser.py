@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from suite import said
+from suite import castray
 
 pytestmark = pytest.mark.browser
 
@@ -28,7 +28,7 @@ def page(serve, browser):
 @pytest.fixture(scope="module")
 def inspected():
     """`castray inspect --why --json` of the pixel where every test starts."""
-    return json.loads(said("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--why", "--json"))
+    return json.loads(castray("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--why", "--json").stdout)
 
 
 @pytest.fixture(autouse=True)
@@ -106,7 +106,7 @@ def test_lens_and_microscope_are_those_of_the_command(page, inspected):
     sample = inspected["samples"][0]
     light = next(e for e in sample["events"] if e["kind"] == "light")
     words = ("inspect", "cornell_unit", "--pixel", 30, 45, *SIZE, "--sample", 0, "--json", "--event")
-    document = json.loads(said(*words, light["step"]))
+    document = json.loads(castray(*words, light["step"]).stdout)
     page.get_by_test_id(f"row-{light['step']}").click()
     page.get_by_test_id("tab-vertex").click()
     page.get_by_test_id("microscope").wait_for()
@@ -119,7 +119,7 @@ def test_lens_and_microscope_are_those_of_the_command(page, inspected):
     bounce = next(e for e in sample["events"] if e["kind"] == "bounce")
     page.get_by_test_id(f"row-{bounce['step']}").click()
     page.locator("[data-testid=microscope]").filter(has_not_text="lamp").wait_for()
-    assert exact(page, "microscope") == json.loads(said(*words, bounce["step"]))["ends"]
+    assert exact(page, "microscope") == json.loads(castray(*words, bounce["step"]).stdout)["ends"]
 
 
 def test_a_dot_on_the_disc_leads_to_the_path_that_tried_it(page, inspected):

@@ -4,7 +4,8 @@ from viewer.panels.panel import Panel
 from viewer.understanding.why import why
 
 TEMPLATE = """
-<div v-if="why" class="why" data-testid="why"><h2>{{ why.head }}</h2>
+<div v-if="why" class="why" data-testid="why"><div class="between"><h2>{{ why.head }}</h2>
+    <button data-testid="why-doctor" :title="w.why_doctor_help" @click="tab = 'doctor'; trigger('look', ['doctor']); trigger('doctor_examine')">{{ w.why_doctor }}</button></div>
   <ol class="reasons" :aria-label="w.why_reasons"><li v-for="(r, k) in why.reasons" :key="k" :class="{strange: r.strange}">
     <button class="plain" :data-testid="'reason-' + k" :data-key="r.key" :data-count="r.count" :disabled="!r.place" :title="r.see" @click="trigger('at', r.place)">{{ r.sentence }}</button></li></ol>
   <h2>{{ w.change_command }}</h2><code class="command" data-testid="why-command">{{ why.command }}</code>

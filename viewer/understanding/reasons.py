@@ -8,7 +8,7 @@ from viewer.numerals import short
 # What no right tracer does.
 STRANGE = frozenset(
     "invalid negative light.negative light.phantom light.self met.lost met.dark met.certain "
-    "unfit.result unfit.f unfit.pdf".split()
+    "unfit.result unfit.f unfit.pdf unfit.direction".split()
 )
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from viewer.caption import named
 from viewer.equation import product_of
-from viewer.numerals import luminance, several
+from viewer.numerals import luminance
 from viewer.understanding.places import places
 from viewer.understanding.reasons import Reason
 from viewer.understanding.surface import Surface
@@ -19,7 +19,8 @@ def reasons(record, scene):
     there = list(places(record, *KINDS))
     of = {kind: sum(place.event.kind.name == kind for place in there) for kind in KINDS}
     found = [("result", place, *both) for place in there if (both := _result(record, place)) is not None]
-    found += _material(there, scene)
+    found += _material([place for place in there if not _astray(place)], scene)
+    found += [("direction", place, place.event.values["wi"], np.nan) for place in there if _astray(place)]
     groups = {}
     for what, place, recorded, right in found:
         groups.setdefault((what, place.event.kind.name), []).append((place, recorded, right))
@@ -34,6 +35,12 @@ def _result(record, place):
     right, recorded = product.value, np.asarray(product.recorded, float)
     fits = not np.isfinite(recorded).all() or _near(recorded, right, OFF)
     return None if fits else (recorded, right)
+
+
+def _astray(place):
+    """Whether a direction is no number or not of length 1."""
+    wi = place.event.values.get("wi")
+    return wi is not None and not abs(float(np.linalg.norm(wi)) - 1.0) < OFF
 
 
 def _material(there, scene):
@@ -58,6 +65,11 @@ def _near(recorded, right, share=FAR):
     return bool((np.abs(recorded - right) <= share * np.abs(right).max()).all())
 
 
+def _spelled(values):
+    """Numbers within a sentence."""
+    return " ".join(f"{v:.5g}" for v in np.ravel(values))
+
+
 def _reason(what, kind, group, of, scene):
     """The Reason of some events; of those nearest the camera the one that is furthest off stands for them."""
 
@@ -67,7 +79,7 @@ def _reason(what, kind, group, of, scene):
         return place.event.depth, -apart / whole if whole else -np.inf
 
     place, recorded, right = min(group, key=off)
-    values = {"events": kind, "recorded": several(recorded), "right": several(right)}
+    values = {"events": kind, "recorded": _spelled(recorded), "right": _spelled(right)}
     if what == "result":
         whole = luminance(right)
         values["times"] = luminance(recorded) / whole if whole else float("inf")

@@ -29,6 +29,7 @@ WORDS = {
         "why.unfit.result": "{events} do not give what their own formula says: here {times} times as much.",
         "why.unfit.f": "{events} have an f that is not the material's: here {recorded}, where “{bsdf}” of “{shape}” gives {right}.",
         "why.unfit.pdf": "{events} have a density that is not the material's: here {recorded}, where “{bsdf}” of “{shape}” gives {right}.",
+        "why.unfit.direction": "{events} go in a direction that is no number, or not of length 1: here {recorded}.",
         "why.end.roulette": "{count} of {of} paths bring nothing and end by Russian roulette, here at depth {depth} with a chance of {q} to go on.",
         "why.end.absorbed": "{count} of {of} paths bring nothing and end on “{shape}”, which sends nothing where the bounce would go, here at depth {depth}.",
         "why.end.escaped": "{count} of {of} paths bring nothing and leave the scene where nothing shines, here at depth {depth}.",
@@ -47,6 +48,8 @@ WORDS = {
         "why.head": "Why pixel ({x}, {y}) is what it is",
         "why.see": "path {path}, step {event}",
         "ui.tab_why": "Why",
+        "ui.why_doctor": "Ask the doctor",
+        "ui.why_doctor_help": "Examine the picture: which law is broken, and by which mistake",
         "ui.why_reasons": "Reasons, the nearest to a cause first; a click leads to an event that shows it",
     },
     "zh": {
@@ -77,6 +80,7 @@ WORDS = {
         "why.unfit.result": "{events}给出的不是它们自己的公式的结果：这里是它的 {times} 倍。",
         "why.unfit.f": "{events}的 f 不是材质的值：这里是 {recorded}，而“{shape}”的“{bsdf}”给出 {right}。",
         "why.unfit.pdf": "{events}的概率密度不是材质的值：这里是 {recorded}，而“{shape}”的“{bsdf}”给出 {right}。",
+        "why.unfit.direction": "{events}的方向不是数，或长度不为 1：这里是 {recorded}。",
         "why.end.roulette": "{of} 条路径中有 {count} 条没有带来光，被俄罗斯轮盘赌终止，这里在深度 {depth}，继续的概率为 {q}。",
         "why.end.absorbed": "{of} 条路径中有 {count} 条没有带来光，止于“{shape}”，它不向反弹的方向送光，这里在深度 {depth}。",
         "why.end.escaped": "{of} 条路径中有 {count} 条没有带来光，离开了场景，那里没有光，这里在深度 {depth}。",
@@ -95,6 +99,8 @@ WORDS = {
         "why.head": "像素 ({x}, {y}) 为什么是这样",
         "why.see": "路径 {path}，第 {event} 步",
         "ui.tab_why": "为什么",
+        "ui.why_doctor": "请求诊断",
+        "ui.why_doctor_help": "检验图像：违反了哪条定律，是哪一种错误",
         "ui.why_reasons": "原因，最接近根源的在前；点击转到能看出它的事件",
     },
 }
