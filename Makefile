@@ -69,7 +69,7 @@ race: .venv/.peers
 	.venv/bin/python tests/race.py
 
 clean:
-	rm -rf .venv build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .lessons build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find tracer viewer lessons scenes tests -name __pycache__ -prune -exec rm -rf {} +
 
 # Without these parts the tests that need them skip and say so; under CI nothing may be missing.

@@ -17,8 +17,9 @@ from viewer.words import Speaker
 
 ROOT = Path(tracer.__file__).parent.parent
 MODULES = ("tracer", "tracer.testing", "tracer.trace", "tracer.trace.jsonl", "tracer.doctor", "tracer.twin")
-LONGEST = 160  # of a signature; fields and options have tables of their own
-RAISES = re.compile(r"[^.]*\bTracerError\b.*?(?:\.(?=\s|$)|$)", re.DOTALL)
+LONGEST = 160  # of a signature; the settings have a table of their own
+SHORT = 12  # of a default
+BETWEEN = re.compile(r"(?<=[.:])\s+(?=[A-Z])")  # two sentences
 
 
 def page():
@@ -63,9 +64,26 @@ def source(thing):
 
 
 def said(thing):
-    """A docstring as HTML; "" without one of its own."""
+    """A docstring as HTML, without what it says of errors; "" without one of its own."""
+    kept = [_without_errors(paragraph) for paragraph in _doc(thing).split("\n\n")]
+    return _reader().render("\n\n".join(kept))
+
+
+def raised(thing):
+    """What a docstring says of errors, sentence by sentence."""
+    sentences = (s for paragraph in _doc(thing).split("\n\n") for s in BETWEEN.split(paragraph))
+    return [" ".join(sentence.split()) for sentence in sentences if "TracerError" in sentence]
+
+
+def _without_errors(paragraph):
+    if "TracerError" not in paragraph:
+        return paragraph
+    return " ".join(s for s in BETWEEN.split(paragraph) if "TracerError" not in s)
+
+
+def _doc(thing):
     own = inspect.getdoc(thing) if inspect.isroutine(thing) or inspect.ismodule(thing) else thing.__doc__
-    return _reader().render(inspect.cleandoc(own)) if own else ""
+    return inspect.cleandoc(own or "")
 
 
 @cache
@@ -85,10 +103,10 @@ def _entry(name, thing):
     if not (inspect.isroutine(thing) or inspect.isclass(thing)):
         return f'<div class="entry" id="{anchor(name)}"><h3><code>{name}</code></h3></div>'
     inner = "".join(_entry(f"{name}.{k}", v) for k, v in _members(thing)) if inspect.isclass(thing) else ""
-    raised = "".join(f"<p><b>errors</b> {escape(' '.join(s.split()))}</p>" for s in _raised(thing))
+    errors = "".join(f"<p><b>errors</b> {escape(sentence)}</p>" for sentence in raised(thing))
     return (
         f'<div class="entry" id="{anchor(name)}"><h3><code>{escape(name)}{escape(_signature(thing))}</code></h3>'
-        f'{said(thing)}{raised}<p class="dim">{escape(source(thing))}</p>{inner}</div>'
+        f'{said(thing)}{errors}<p class="dim">{escape(source(thing))}</p>{inner}</div>'
     )
 
 
@@ -101,16 +119,28 @@ def _members(thing):
             yield name, member if inspect.isfunction(member) else member.fget
 
 
-def _raised(thing):
-    return RAISES.findall(inspect.getdoc(thing) or "") if inspect.isroutine(thing) else []
-
-
 def _signature(thing):
+    """How it is called: names and short defaults; what types they have stands in the text."""
     try:
-        said = str(inspect.signature(thing))
+        parameters = inspect.signature(thing).parameters.values()
     except (TypeError, ValueError):
         return ""
-    return said if len(said) < LONGEST else "(...)"
+    told = ", ".join(str(p.replace(annotation=p.empty, default=_default(p))) for p in parameters)
+    return f"({told})" if len(told) < LONGEST else "(...)"
+
+
+def _default(parameter):
+    default = parameter.default
+    if default is parameter.empty or len(repr(default)) <= SHORT:
+        return default
+    return _Named(getattr(default, "__name__", "..."))
+
+
+class _Named(str):
+    """A text that shows itself without quotation marks."""
+
+    def __repr__(self):
+        return str(self)
 
 
 def _settings():
