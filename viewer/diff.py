@@ -111,13 +111,13 @@ def drawing(a, b, verdict):
         with np.errstate(all="ignore"):
             signed = [largest(one.astype(np.float64) - two) / max(verdict.errors.most, 1e-300)]
     odd = ~np.isfinite(a.rgb).all(axis=2) | ~np.isfinite(b.rgb).all(axis=2)
-    panels = [np.where(odd[..., None], ODD, _colours(values)) for values in signed]
+    panels = [np.where(odd[..., None], ODD, colours(values)) for values in signed]
     height, width = odd.shape
     larger = max(1, SIDE // max(height, width))
     panels = [panel.repeat(larger, axis=0).repeat(larger, axis=1) for panel in panels]
     between = np.zeros((height * larger, GAP, 3))
     rgb = np.concatenate([part for panel in panels for part in (panel, between)][:-1], axis=1)
-    bar = np.repeat(_colours(np.linspace(-1.0, 1.0, rgb.shape[1]))[None], 2 * GAP, axis=0)
+    bar = np.repeat(colours(np.linspace(-1.0, 1.0, rgb.shape[1]))[None], 2 * GAP, axis=0)
     return np.concatenate((rgb, np.zeros((GAP, rgb.shape[1], 3)), bar)).astype(np.float32)
 
 
@@ -128,7 +128,7 @@ def largest(values):
     return np.take_along_axis(values, place, axis=2)[..., 0]
 
 
-def _colours(signed):
+def colours(signed):
     """Colours (..., 3) of numbers (...) from -1 to 1."""
     share = np.clip(np.abs(signed), 0.0, 1.0)[..., None]
     end = np.where((signed < 0.0)[..., None], BLUE, RED)

@@ -5,16 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.picture import to_srgb
+from tracer.picture.turns import TURNS
 from tracer.settings import TracerError
 
 SMALL = 0.01  # of relMSE, as most papers on path guiding have it: keeps black pixels from deciding
 ROUNDING = 1e-5  # relative: what differs by less is rounding of float32 paths
-TURNS = {
-    "left and right exchanged": lambda rgb: rgb[:, ::-1],
-    "upside down": lambda rgb: rgb[::-1],
-    "turned by half a turn": lambda rgb: rgb[::-1, ::-1],
-    "red and blue exchanged": lambda rgb: rgb[..., ::-1],
-}
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,9 @@
 """The command `castray doctor`."""
 
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 import tracer
 from tracer.picture import check_place, write_whole
@@ -15,27 +18,40 @@ def doctor(
     *,
     scene: str | None = None,
     html: Path | None = None,
+    gamma: float | None = None,
+    output: Annotated[Path | None, Parameter(name=["-o", "--output"])] = None,
     options: DoctorOptions | None = None,
     json: Json = False,
 ):
     """Hold the laws of light transport against a trace: what is wrong, where, and which mistake.
 
-    Exit code 0 if nothing is found, 1 if something is.
+    Exit code 0 if nothing is found, 1 if something is. A picture alone gives hypotheses, and exit code 0.
 
     Parameters
     ----------
     what
         A scene file, or the bare name of one that comes with castray: it is traced with the path options.
         Or a folder that castray render --record made with --record-level events, or the log of another
-        tracer, FILE.jsonl (castray log --schema).
+        tracer, FILE.jsonl (castray log --schema). Or a picture (.png, .ppm, .exr, .npy, ...) of your tracer.
     scene
-        The scene that a log is of.
+        The scene that a log or a picture is of.
     html
         Where a report goes, too: one page that opens without a network, with the first finding's path in 3D.
+    gamma
+        Of a picture: the power to which light was raised before it was written; the homework's is 0.6.
+    output
+        Of a picture: a file for it, the right one and their ratio side by side.
     """
     from lessons.course import about
+    from viewer.picture_doctor import is_picture
     from viewer.recorded import is_recording
 
+    if is_picture(what):
+        if html is not None:
+            raise TracerError(f"--html: is for a trace; {what} is a picture")
+        return _picture(Path(what), scene, options, gamma, output, json)
+    if gamma is not None or output is not None:
+        raise TracerError(f"--{'gamma' if gamma is not None else 'output'}: is for a picture; {what} is none")
     if html is not None:
         check_place(html)
     recorded = is_recording(what)
@@ -51,6 +67,21 @@ def doctor(
 
         print_diagnosis(diagnosis, trace)
     return 1 if diagnosis.findings else 0
+
+
+def _picture(path, scene, options, gamma, output, json):
+    """Hypotheses from a picture; they are no findings."""
+    from viewer.picture_doctor import opinion_of
+    from viewer.picture_report import as_dict, drawing, print_opinion
+
+    opinion, loaded, known = opinion_of(path, scene, options, gamma, output)
+    if output is not None:
+        tracer.write(drawing(opinion, known), output)
+    if json:
+        print_json(as_dict(opinion, path, loaded, known))
+    else:
+        print_opinion(opinion, path, loaded, known, gamma is None)
+    return 0
 
 
 def _write(file, diagnosis, trace, again):

@@ -1,0 +1,69 @@
+"""`castray doctor PICTURE` on the command line."""
+
+import json
+
+import numpy as np
+import pytest
+from suite import castray
+
+import tracer
+from lessons.zoo import ZOO
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with a picture of a mistake, a right one, and what is none."""
+    folder = tmp_path_factory.mktemp("pictures")
+    scene, bug = tracer.load("cornell"), ZOO["D06"]
+    settings = bug.asked(width=40, height=40, spp=8, seed=5)
+    tracer.write(tracer.render(scene, settings, steps=bug.steps).rgb, folder / "红墙 mine.png")
+    tracer.write(tracer.render(scene, settings).rgb, folder / "right.png")
+    (folder / "text.png").write_text("no picture", encoding="utf-8")
+    (folder / "cut.ppm").write_bytes(b"P6\n40 40\n255\n" + bytes(100))
+    (folder / "empty.ppm").write_bytes(b"P6\n0 0\n255\n")
+    (folder / "huge.ppm").write_bytes(b"P6\n40000 25000\n255\n")
+    np.save(folder / "nan.npy", np.full((16, 16, 3), np.nan))
+    np.save(folder / "tiny.npy", np.ones((4, 4, 3)))
+    return folder
+
+
+def test_a_picture_gives_hypotheses_and_no_findings(folder):
+    ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", env={"COLUMNS": "80"})
+    assert ran.returncode == 0, ran.stderr
+    for words in ("fits D06", "no findings", "to prove it, log light.f", "castray bugs D06", "left_wall"):
+        assert words in ran.stdout
+    assert max(map(len, ran.stdout.splitlines()[1:])) <= 80
+
+
+def test_its_json_keeps_hypotheses_and_findings_apart(folder):
+    ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", "--json", "--spp", 8)
+    said = json.loads(ran.stdout)
+    first = said["hypotheses"][0]
+    assert ran.returncode == 0 and said["findings"] == [] and first["bugs"] == ["D06"]
+    assert 0.5 < first["explains"] <= 1.0 and "light.f" in first["log"]
+    assert first["evidence"]["left_wall"]["yours"][1] > 3.0
+
+
+def test_a_right_picture_is_called_right_and_drawn_beside_the_reference(folder, tmp_path):
+    out = tmp_path / "beside.png"
+    ran = castray("--lang", "zh", "doctor", folder / "right.png", "--scene", "cornell", "-o", out)
+    assert ran.returncode == 0 and "吻合" in ran.stdout and out.exists()
+
+
+@pytest.mark.parametrize(
+    "name", ["text.png", "cut.ppm", "empty.ppm", "huge.ppm", "nan.npy", "tiny.npy", "none.png"]
+)
+def test_what_is_no_picture_is_one_line_and_code_2(folder, name):
+    ran = castray("doctor", folder / name, "--scene", "cornell")
+    assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1 and name in ran.stderr and not ran.stdout
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("right.png",), ("right.png", "--scene", "cornell", "--gamma", "0"),
+     ("right.png", "--scene", "cornell", "--bug", "E01"),
+     ("right.png", "--scene", "cornell", "-o", "no/such.png"), ("cornell", "--gamma", "2")],
+)  # fmt: skip
+def test_options_that_do_not_fit_are_one_line_and_code_2(folder, words):
+    ran = castray("doctor", *words, cwd=folder)
+    assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1 and not ran.stdout

@@ -1,0 +1,24 @@
+"""What a picture alone says of its tracer: hypotheses, never findings."""
+
+from tracer.doctor.picture.features import Features, features, resampled
+from tracer.doctor.picture.fitting import Fit, Looks, fit, misfit
+from tracer.doctor.picture.hypotheses import FITS, Hypothesis, Opinion, judged
+from tracer.doctor.picture.reading import opened
+from tracer.doctor.picture.walls import Wall, predicted
+
+__all__ = [
+    "FITS",
+    "Features",
+    "Fit",
+    "Hypothesis",
+    "Looks",
+    "Opinion",
+    "Wall",
+    "features",
+    "fit",
+    "judged",
+    "misfit",
+    "opened",
+    "predicted",
+    "resampled",
+]

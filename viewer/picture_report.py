@@ -1,0 +1,176 @@
+"""What the doctor says of a picture: in words, as JSON, and as pictures side by side."""
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from lessons.course import about
+from tracer.doctor import LAWS, statistics
+from tracer.doctor.picture import FITS, predicted
+from viewer.doctor_report import bug_title
+from viewer.words import Speaker
+
+_RULES = {rule.id: rule for rule in (*LAWS, *statistics.RULES)}
+_LOGGED = 3  # columns that are asked for, of each mistake
+
+
+def log_of(hypothesis, album):
+    """Columns "kind.field" that would prove the mistakes: what the law takes that each breaks first."""
+    rules = (_RULES.get(album.rules.get(bug, "")) for bug in hypothesis.bugs)
+    return tuple(dict.fromkeys(need for rule in rules if rule for need in rule.needs[:_LOGGED]))
+
+
+def as_dict(opinion, picture, scene, album):
+    """The JSON of `castray doctor PICTURE`: findings stays empty, since a picture proves nothing."""
+    reading = opinion.reading
+    read = {"curve": reading.curve, "turned": reading.turn, "shape": reading.shape}
+    return {
+        "picture": str(picture),
+        "scene": scene.name,
+        "size": [reading.rgb.shape[1], reading.rgb.shape[0]],
+        "read": read,
+        "right": {"fits": opinion.is_right, "deviation": opinion.right.typical, "spp": opinion.right.spp},
+        "invalid": opinion.invalid,
+        "walls": [{"object": w.name, "ratio": _numbers(w.ratio), "share": w.share} for w in opinion.walls],
+        "hypotheses": [_hypothesis(h, opinion, album) for h in opinion.hypotheses],
+        "nearest": opinion.nearest and _hypothesis(opinion.nearest, opinion, album),
+        "findings": [],
+    }
+
+
+def _hypothesis(h, opinion, album):
+    evidence = {
+        wall.name: {"yours": _numbers(wall.ratio), "predicted": _numbers(_predicted(wall, h, opinion, album))}
+        for wall in opinion.walls
+    }
+    return {
+        "bugs": list(h.bugs),
+        "alike": list(h.alike),
+        "explains": h.explains,
+        "deviation": h.deviation,
+        "spp": h.spp,
+        "factor": h.factor,
+        "marks": dict(h.marks),
+        "evidence": evidence,
+        "log": list(log_of(h, album)),
+        "lessons": [n for n in map(about, h.bugs) if n is not None],
+    }
+
+
+def _numbers(values):
+    return None if values is None else [float(v) if np.isfinite(v) else None for v in values]
+
+
+def _predicted(wall, h, opinion, album):
+    known = album.rights[0].near(max(album.rights[0].at))
+    return predicted(wall, h.looks, known, opinion.reading.eight_bits)
+
+
+def print_opinion(opinion, picture, scene, album, guessed, console=None):
+    """Hypotheses, and a table of the objects. guessed: whether the curve was not said."""
+    console, say = console or Console(highlight=False), Speaker()
+    console.width = min(console.width, 100)
+    height, width = opinion.reading.rgb.shape[:2]
+    console.print(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene.name)))
+    for said in _how_read(opinion.reading, guessed, say):
+        console.print(Text(said, style="yellow"))
+    console.print()
+    if opinion.is_right:
+        console.print(Text(say("pic.right"), style="bold green"))
+        console.print(Text(say("pic.right_but"), style="dim"))
+    elif not opinion.hypotheses:
+        _print_nothing(opinion, say, console)
+    else:
+        console.print(Text(say("pic.hypotheses"), style="bold yellow"))
+        for h in opinion.hypotheses:
+            console.print()
+            _print_hypothesis(h, album, say, console)
+    console.print()
+    _print_walls(opinion, album, say, console)
+
+
+def _how_read(reading, guessed, say):
+    if reading.curve is not None:
+        words = {"srgb": "pic.curve_srgb", 1.0: "pic.curve_none"}.get(reading.curve, "pic.curve_gamma")
+        said = say(words, gamma=reading.curve)
+        odd = guessed and reading.curve != "srgb"
+        yield f"{said} {say('pic.curve_guessed')}" if odd else said
+    if reading.turn:
+        yield say(f"pic.turn_{reading.turn}")
+    if reading.shape:
+        yield say(f"pic.shape_{reading.shape}")
+
+
+def _print_nothing(opinion, say, console):
+    console.print(Text(say("pic.nothing"), style="bold red"))
+    near = opinion.nearest
+    if near is not None and near.bugs:
+        console.print(Text(say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains)))
+    console.print(Text(say("pic.log_any")))
+
+
+def _print_hypothesis(h, album, say, console):
+    for k, said in enumerate(_said(h, album, say)):
+        console.print(Text(said if k == 0 else f"  {said}", style="bold" if k == 0 else ""))
+
+
+def _said(h, album, say):
+    """Lines on a hypothesis; the first names it."""
+    if h.factor is not None:
+        whole = h.factor > 1.5 and abs(h.factor / round(h.factor) - 1.0) < 0.03
+        yield say("pic.factor_samples" if whole else "pic.factor", factor=h.factor)
+    else:
+        yield say("pic.fits", bugs=" + ".join(h.bugs))
+    for bug in h.bugs:
+        yield f"{bug}  {bug_title(bug, say)}"
+    if h.alike:
+        yield say("pic.or", others=say.listed(*h.alike))
+    for name, value in h.marks:
+        yield say(f"pic.mark_{name}", value=value)
+    if h.explains is not None:
+        left = say("pic.left_noise" if h.deviation <= FITS else "pic.left_more")
+        yield say("pic.explains", explains=h.explains, left=left, spp=round(h.spp))
+    log = log_of(h, album)
+    if log:
+        yield say("pic.prove", fields=say.listed(*log))
+    for bug in h.bugs:
+        more = [f"castray bugs {bug}", *([f"castray lesson {about(bug)}"] if about(bug) is not None else [])]
+        yield say("pic.more", commands=say.listed(*more))
+
+
+def _print_walls(opinion, album, say, console):
+    first = next(
+        (h for h in (*opinion.hypotheses, opinion.nearest) if h is not None and h.looks is not None), None
+    )
+    table = Table(box=None, pad_edge=False)
+    table.add_column(say("pic.object"), no_wrap=True)
+    table.add_column(say("pic.yours"), no_wrap=True)
+    if first is not None:
+        table.add_column(say("pic.predicted", bugs=" + ".join(first.bugs)))
+    for wall in opinion.walls:
+        row = [Text(wall.name), Text(_three(wall.ratio))]
+        if first is not None:
+            row.append(Text(_three(_predicted(wall, first, opinion, album))))
+        table.add_row(*row)
+    console.print(table)
+
+
+def _three(values):
+    return "" if values is None else " ".join(f"{v:6.3g}" if np.isfinite(v) else "     -" for v in values)
+
+
+def drawing(opinion, album):
+    """The picture, the right one and their ratio side by side in linear RGB: grey where it is 1, blue where
+    the picture is darker, red where it is brighter, full at eight times."""
+    from tracer.doctor.picture import resampled
+    from viewer.diff import colours
+
+    right = np.asarray(album.picture)
+    mine = resampled(np.nan_to_num(opinion.reading.rgb, posinf=0.0, neginf=0.0), *right.shape[:2])
+    small = 0.01
+    ratio = np.log2((mine.mean(axis=2) + small) / (right.mean(axis=2) + small)) / 3.0
+    gap = np.ones((right.shape[0], 1, 3))
+    whole = np.concatenate((mine, gap, right, gap, colours(ratio)), axis=1)
+    larger = max(1, 320 // max(right.shape[:2]))
+    return whole.repeat(larger, axis=0).repeat(larger, axis=1).astype(np.float32)
