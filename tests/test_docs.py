@@ -20,7 +20,9 @@ PAPERS = (
     "CHANGELOG.md",
     "REFERENCES.md",
     "BENCHMARKS.md",
+    "COMPARISON.md",
 )
+FEATURES = 42  # of the comparison with other programs
 SHELLS = ("sh", "bash", "console")
 
 
@@ -161,3 +163,21 @@ def test_the_scenes_named_in_the_papers_are_those_that_come_with_it():
     scenes = {path.stem for path in Path(ROOT / "scenes").glob("*.toml")}
     assert not scenes - words
     assert not {word for word in words if word.startswith(("cornell", "furnace"))} - scenes
+
+
+def test_the_comparison_proves_each_yes_and_gives_a_reason_for_each_other():
+    row = r"^\| (\d+) \| ([^|]+) \| (yes|partly|no) \| ([^|]+) \|(?: [YPN?–] \|){7}$"
+    rows = re.findall(row, text("COMPARISON.md"), re.MULTILINE)
+    assert [int(number) for number, *_ in rows] == list(range(1, FEATURES + 1))
+    for number, _, answer, said in rows:
+        proof = re.search(r"`tests/[^`]+::test_|\.md", said)
+        assert proof if answer == "yes" else len(said) > 40, number
+
+
+def test_every_test_that_a_paper_names_is_there():
+    named = {
+        found for name in PAPERS for found in re.findall(r"`(tests/[\w/]+\.py)::(test_\w+)`", text(name))
+    }
+    assert len(named) > 40
+    missing = [f"{file}::{test}" for file, test in named if f"def {test}(" not in text(file)]
+    assert not missing

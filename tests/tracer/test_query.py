@@ -43,6 +43,12 @@ def test_a_condition_finds_the_events_that_numpy_finds(box):
     assert sum(row[2] for row in found["mask"]) == found["paths"]
 
 
+def test_a_rectangle_of_pixels_is_asked_for_by_its_sides(box):
+    found = ask(box, "x BETWEEN 2 AND 4 AND y < 3 AND kind = 'camera'")
+    assert found["pixels"] == 3 * 3 and found["paths"] == 3 * 3 * SETTINGS.spp
+    assert {(x, y) for x, y, _ in found["mask"]} == {(x, y) for x in (2, 3, 4) for y in (0, 1, 2)}
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "precision"), [("cornell_unit", 64), ("coloured_glass", 32), ("sky", 32)])
 def test_every_column_says_what_the_trace_says(tmp_path, name, precision):
