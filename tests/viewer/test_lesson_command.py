@@ -113,3 +113,20 @@ def test_lost_progress_is_one_line_and_stops_nobody(ask, tmp_path):
 def test_a_product_in_a_choice_keeps_its_sign(ask):
     assert "0.9999 * r" in ask("13").stdout
     assert "2 * sin(x / 2) ** 2" in ask("20").stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (("--lesson", "99"), "there is no 99"),
+        (("--lesson", "four"), "'four' is not a whole number"),
+        (("pool", "--lesson", "4"), "leave out yours"),
+        (("--lesson", "4", "--spp", "2"), "leave out yours"),
+    ],
+)
+def test_the_viewer_opens_no_lesson_that_is_not_there_and_none_on_another_scene(capsys, words, why):
+    with pytest.raises(SystemExit) as ended:
+        main(["view", *words, "--no-browser"])
+    said = capsys.readouterr()
+    assert ended.value.code == 2 and why in said.err
+    assert said.err.count("\n") == 1 and not said.out

@@ -8,6 +8,8 @@
     const place = found < 0 ? data.start : found;
     if (found < 0 && window.location.hash) return; // a place of the text: a task, a formula
     view.show(place);
+    const aside = document.querySelector("aside");
+    if (found >= 0 && getComputedStyle(aside).position === "static") aside.scrollIntoView({ block: "nearest" }); // not beside the text
     document.getElementById("command").textContent = commands.getElementById(data.places[place].name).textContent;
     for (const link of document.querySelectorAll("a[href^='#place-']")) {
       if (link.hash === `#place-${data.places[place].name}`) link.setAttribute("aria-current", "true");

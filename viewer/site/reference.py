@@ -82,8 +82,9 @@ def _without_errors(paragraph):
 
 
 def _doc(thing):
-    own = inspect.getdoc(thing) if inspect.isroutine(thing) or inspect.ismodule(thing) else thing.__doc__
-    return inspect.cleandoc(own or "")
+    if inspect.ismodule(thing):
+        return thing.__doc__.strip()  # not indented, but for what is code
+    return inspect.cleandoc((inspect.getdoc(thing) if inspect.isroutine(thing) else thing.__doc__) or "")
 
 
 @cache
