@@ -12,7 +12,8 @@ from tracer.settings import TracerError
 from viewer.link import of_moment
 from viewer.words import LANGUAGES
 
-PLACES = ("pixel", "path", "event")  # kinds of tasks that are answered by going somewhere
+# Kinds of tasks that are answered by going somewhere, and how much of x, y and path they give.
+PLACES = {"pixel": 0, "path": 2, "event": 3}
 LONGEST = 200
 
 
@@ -51,10 +52,12 @@ def address(moment):
     return f"#{of_moment(moment).write()}"
 
 
-def place_of(run, task):
-    """The address of the place that a task is about, as far as it is given."""
-    before = {"pixel": "x", "path": "path", "event": "event"}[task.kind]
-    return address(run.lesson.moments[task.at]).rpartition(f"&{before}=")[0]
+def stands_at(session, run, task):
+    """Whether the reader stands where a task is about, as far as the task gives that."""
+    at, c, given = run.lesson.moments[task.at], session.cursor, PLACES[task.kind]
+    as_it_is = session.scene.name == at.scene and not session.scene.definition.changes
+    same = as_it_is and session.settings == run.settings(task.at)
+    return same and (c.x, c.y, c.path)[:given] == (at.x, at.y, at.path)[:given]
 
 
 class Reader:
@@ -145,9 +148,7 @@ class Reader:
 
     def _place(self, run, task):
         """Where the reader stands, in words; TracerError where the task is about another place."""
-        here = f"#{self.session.link.write()}"
-        before = place_of(run, task)
-        if not here.startswith(f"{before}&") or here[len(before) + 1 :].partition("=")[0] not in _NEXT:
+        if not stands_at(self.session, run, task):
             raise TracerError(f"task {task.id}: it is about another place; go there first")
         c = self.session.cursor
         return {"pixel": [str(c.x), str(c.y)], "path": [str(c.path)], "event": [str(c.event)]}[task.kind]
@@ -155,9 +156,6 @@ class Reader:
     def _show(self, reading):
         if self.course.open is reading:
             self.window.show("lesson")
-
-
-_NEXT = ("x", "path", "event")
 
 
 def _short(said):
