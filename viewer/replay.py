@@ -30,12 +30,15 @@ def inspect_command(scene, settings, place, changes=None, supposed=None):
     return " ".join(words)
 
 
-def view_command(scene, settings, place, changes=None, compare=""):
-    """`castray view` at (x, y, sample, step); None for a scene that a link cannot name. compare: the tracer
-    that it is compared with."""
-    if scene not in tracer.built_in_scenes():
+def view_command(scene, settings, place, changes=None):
+    """`castray view` at (x, y, sample, step); None for a scene that a link cannot name."""
+    return opening(Link(scene, settings, place, changes or {}))
+
+
+def opening(link):
+    """`castray view` of a Link; None for a scene that a link cannot name."""
+    if link.scene not in tracer.built_in_scenes():
         return None
-    link = Link(scene, settings, place, changes or {}, compare=compare)
     return f"castray view {shlex.quote('#' + link.write())}"
 
 

@@ -5,7 +5,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from tracer.settings import Settings
+from tracer.settings import Settings, TracerError
 from viewer.comparing.comparer import beside
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
@@ -183,7 +183,11 @@ class Window:
     def alter(self, scene, settings):
         """Show the scene said differently, or with other settings: the picture anew, the rest at once."""
         self.pause()
-        self.session.alter(scene, settings)
+        try:
+            self.session.alter(scene, settings)
+        except (TracerError, IndexError):
+            self._begin()  # what panels keep of the scene may be gone
+            raise
         self.stage.refit(self.session.scene)
         self.state.update({"touched": True, "message": ""})
         self.paint()

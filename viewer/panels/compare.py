@@ -131,7 +131,7 @@ def _pixel(session, desk, say):
         return []
     rows = {"a": mine, "b": its, "a_less_b": mine - its}
     return [
-        {"key": key, "name": say(f"compare.{key}", name=desk.rival.name), "value": several(value),
+        {"key": key, "name": say(f"compare.{key}"), "value": several(value),
          "exact": [number(v) for v in value]}
         for key, value in rows.items()
     ]  # fmt: skip

@@ -3,7 +3,7 @@
 from tracer.trace.folder import view_command as of_recording
 from viewer import examining
 from viewer.panels.panel import Panel
-from viewer.replay import view_command
+from viewer.replay import opening
 from viewer.sharing.files import FILES
 
 TEMPLATE = """
@@ -18,19 +18,16 @@ TEMPLATE = """
 
 def show(session, say):
     """The command that opens this moment anywhere, and the files there are."""
-    c, settings = session.cursor, session.settings
-    place = c.x, c.y, c.path, c.event
-    takes = {"seconds": examining.seconds(settings)}
+    c, takes = session.cursor, {"seconds": examining.seconds(session.settings)}
     files = [
         {"name": name, "label": say(f"share.{name}", **takes), "title": say(f"share.{name}.title")}
         for name in FILES
+        if name != "doctor.html" or session.recording is None or session.recording.kinds
     ]
     if session.recording is not None:
         command = of_recording(session.recording.path, (c.x, c.y, session.path.sample, c.event))
     else:
-        command = view_command(
-            session.scene.name, settings, place, session.scene.definition.changes, session.link.compare
-        )
+        command = opening(session.link)
     return {"command": command or "", "files": files}
 
 
