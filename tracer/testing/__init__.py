@@ -1,8 +1,10 @@
 """Tests of pictures and traces, for anybody's regression suite.
 
-from tracer.testing import assert_healthy, assert_same_picture
-assert_same_picture(tracer.render(scene, settings), tracer.read("reference.exr"))
-assert_healthy("mine.jsonl", scene="cornell")
+In a test of yours:
+
+    from tracer.testing import assert_healthy, assert_same_picture
+    assert_same_picture(tracer.render(scene, settings), tracer.read("reference.exr"))
+    assert_healthy("mine.jsonl", scene="cornell")
 """
 
 from tracer.testing.calibration import Calibration, calibration
