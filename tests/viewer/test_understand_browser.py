@@ -86,6 +86,7 @@ def test_a_factor_leads_to_the_event_that_made_it(page, inspected):
     stands_at(page, 0, bounce["step"])
     assert bounce["beta"] == light["beta"]
     page.get_by_test_id(f"row-{light['step']}").click()
+    page.get_by_test_id("factor-Le").wait_for()
     page.locator("[data-testid=equation-symbolic] .from").nth(1).click()
     hit = next(e for e in events if e["kind"] == "hit" and e["depth"] == 1)
     stands_at(page, 0, hit["step"])

@@ -156,6 +156,8 @@ OFTEN = (
     "render cornell_unit --set white.colour=1", "inspect cornell_unit --pixel 0 0 --sample 0 --what-if x",
     "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 1.bounce=3",
     "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 999.bounce=3,4",
+    "inspect cornell_unit --pixel 0 0 --event 3", "inspect cornell_unit --pixel 0 0 --sample 0 --event 99",
+    "inspect cornell_unit --pixel 0 0 --sample 0 --event 0",
 )  # fmt: skip
 BROKEN = (
     "[sensor]\ntype = 'x'",

@@ -112,5 +112,9 @@ def _reasons(record, scene):
     from viewer.words import Speaker
 
     say = Speaker()
+    reasons = [reason.as_dict(say) for reason in why(record, scene)]
     bars = [bar.as_dict() for bar in waterfall(record)]
-    return {"why": [reason.as_dict(say) for reason in why(record, scene)], "made_of": bars}
+    for row in (*reasons, *bars):  # a path is known by its sample here
+        if row["path"] is not None:
+            row["path"] = record.paths[row["path"]].sample
+    return {"why": reasons, "made_of": bars}

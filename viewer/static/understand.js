@@ -165,14 +165,14 @@
         const { point, offset, start, beyond } = props.ruler, high = Math.max(start, point + offset, 4) * 1.08, low = Math.min(point, 0, -high / 12) * 1.1;
         const to = scale(g, low, high, 34, width);
         g.fillStyle = "#66b8ff40"; g.fillRect(to(point), 26, to(point + offset) - to(point), 16);
-        g.fillStyle = "#e8ebf0"; g.fillRect(to(0) - 1.5, 16, 3, 34);
+        g.fillStyle = "#e8ebf0"; g.fillRect(to(0) - 1.5, 22, 3, 19);
         spot(g, to(point), 34, 4, "#73e687", false);
         spot(g, to(start), 34, 4, "#ff9e4d", false);
         name(g, "p", to(point) + 4, 14, "#73e687", width);
         name(g, "o", to(start) - 4, 14, "#ff9e4d", width);
         if (beyond === null) return;
         const most = Math.max(4, Math.abs(beyond) * 1.3), end = scale(g, -most, most, 84, width);
-        g.fillStyle = "#ffe673"; g.fillRect(end(0) - 1.5, 68, 3, 32);
+        g.fillStyle = "#ffe673"; g.fillRect(end(0) - 1.5, 72, 3, 19);
         spot(g, end(beyond), 84, 4, beyond < 0 ? "#ff7a70" : "#ffe673", false);
         name(g, "q", end(0) + 5, 70, "#ffe673", width);
         name(g, "t", end(beyond) + (beyond < 0 ? -10 : 6), 78, "#ff7a70", width);

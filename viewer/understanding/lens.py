@@ -124,15 +124,24 @@ def _plane(vertex):
 
 def _tried(vertex, here, there):
     """What the pixel's paths tried from vertices like this one, at the same depth."""
-    for place in there:
-        event, hit = place.event, place.hit
-        if event.kind.name not in ("light", "bounce") or event.depth != here.event.depth:
-            continue
-        alike = hit["shape"] == vertex.hit["shape"] and all(
-            np.dot(hit[name], vertex.hit[name]) > NEAR for name in ("n", "wo")
-        )
-        if place.path == here.path or alike:
-            yield Tried(_kind(place), place.at, _one(vertex, event.values["wi"]))
+    alike = [
+        place
+        for place in there
+        if place.event.kind.name in ("light", "bounce")
+        and place.event.depth == here.event.depth
+        and (place.path == here.path or _alike(place.hit, vertex.hit))
+    ]
+    if not alike:
+        return
+    shown = vertex.shown(np.stack([place.event.values["wi"] for place in alike], axis=-1))
+    for place, direction in zip(alike, shown.T, strict=True):
+        yield Tried(_kind(place), place.at, direction)
+
+
+def _alike(hit, other):
+    """Whether two vertices lie on the same shape and are seen under the same angle, about."""
+    near = all(np.dot(hit[name], other[name]) > NEAR for name in ("n", "wo"))
+    return near and hit["shape"] == other["shape"]
 
 
 def _kind(place):

@@ -78,7 +78,9 @@ def lines(there, scene, say):
         shape = named("shape", aim.shape, scene)
         yield "first", say("microscope.meets", shape=shape, t=f"{aim.t:.9g}", ulps=short(aim.ulps))
     if there.blocker:
-        yield "blocker", say("microscope.blocks", shape=there.blocker, at=f"{there.blocker_distance:.9g}")
+        at = there.blocker_distance
+        before = (aim.distance - at) / aim.ulp
+        yield "blocker", say("microscope.blocks", shape=there.blocker, at=f"{at:.9g}", ulps=short(before))
     elif not there.visible:
         yield "blocker", say("microscope.unseen")
 
