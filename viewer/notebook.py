@@ -23,12 +23,12 @@ from tracer.trace.trace import Trace
 from viewer.cursor import Cursor
 from viewer.offline.page import page
 from viewer.recorded import is_recording
+from viewer.render import preview
 from viewer.session import brightest, most_giving, telling_pixel
 from viewer.words import Speaker
 
 ROOT = Path(__file__).resolve().parent.parent
 FRAME = 720  # pixels that a cell is high
-PREVIEW = 1 << 18  # paths of the picture that stands beside the paths
 CHILD = "from viewer.notebook import child; child()"
 SWAP = """<script>(() => {
   const frame = document.currentScript.previousElementSibling, host = window.location.hostname;
@@ -58,7 +58,7 @@ def show(what="cornell_unit", settings=None, *, pixel=None, compare=None, live=T
     path = brightest(record)
     lengths = tuple(len(one.events) for one in record.paths)
     cursor = Cursor(x, y, lengths, path, most_giving(record.paths[path]))
-    html = page(scene, record, cursor, Speaker(), _preview(scene, settings))
+    html = page(scene, record, cursor, Speaker(), preview(scene, settings))
     place = (x, y, path, cursor.event)
     return Shown(html, _Server(scene, settings, place, recording, compare) if live else None, frame)
 
@@ -79,15 +79,6 @@ def _asked(what, settings, options):
         return what.scene, what.settings, None
     place = folder.whole(what)
     return restore(place.path, place.header["scene"]["name"]), place.settings, place
-
-
-def _preview(scene, settings):
-    """The picture, of as many samples as take no time to speak of; None where that is none."""
-    spp = min(settings.spp, PREVIEW // (settings.width * settings.height)) // settings.replicates
-    if spp < 1:
-        return None
-    few = settings.at_spp(spp * settings.replicates)
-    return tracer.render(scene, few, steps=planted(few)).rgb
 
 
 class Shown:

@@ -5,6 +5,7 @@ import threading
 import tracer
 from lessons.zoo import planted
 
+PREVIEW = 1 << 18  # paths of a picture that is made while one waits
 FINER = 4  # each pass has this many times the samples of the one before
 
 
@@ -60,3 +61,12 @@ class Painter:
     def _check(self):
         if self._stop.is_set():
             raise Stopped
+
+
+def preview(scene, settings):
+    """The picture (H, W, 3), of as many samples as take no time to speak of; None where that is none."""
+    spp = min(settings.spp, PREVIEW // (settings.width * settings.height)) // settings.replicates
+    if spp < 1:
+        return None
+    few = settings.at_spp(spp * settings.replicates)
+    return tracer.render(scene, few, steps=planted(few)).rgb

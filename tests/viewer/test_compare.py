@@ -9,9 +9,11 @@ from suite import castray
 import tracer
 from lessons.zoo import planted
 from tracer.testing import compare
+from viewer import app
 from viewer.comparing import maps, rival
-from viewer.comparing.comparer import beside
+from viewer.comparing.comparer import beside, desk_of
 from viewer.comparing.twins import PixelTwin
+from viewer.recorded import serve_recording
 from viewer.session import Session
 
 SETTINGS = tracer.Settings(width=16, height=16, spp=4, max_depth=4)
@@ -128,6 +130,22 @@ def test_a_picture_of_another_size_sets_the_size_or_is_refused(pictures, tmp_pat
     assert (fitted.width, fitted.height) == (16, 16)
     with pytest.raises(tracer.TracerError, match="give --size 16 16"):
         rival.fitted(tracer.Settings(width=8, height=8), there)
+
+
+def test_a_log_has_no_picture_to_compare_with():
+    with pytest.raises(tracer.TracerError, match="castray twin compares logs"):
+        rival.of_file("mine.jsonl")
+
+
+def test_two_recordings_are_opened_side_by_side(scene, tmp_path, monkeypatch):
+    for name, bug in (("right", None), ("wrong", "D10")):
+        asked = replace(SETTINGS, bug=bug)
+        tracer.record(scene, asked, tmp_path / name, "paths", steps=planted(asked))
+    sessions = []
+    monkeypatch.setattr(app, "_run", lambda session, *_: sessions.append(session))
+    serve_recording(str(tmp_path / "right"), against=str(tmp_path / "wrong"))
+    assert sessions[0].recording is not None
+    assert desk_of(sessions[0]).rival.settings.bug == "D10" and beside(sessions[0]) is not None
 
 
 @pytest.mark.slow

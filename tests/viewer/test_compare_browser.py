@@ -66,6 +66,17 @@ def test_the_wipe_shows_the_other_picture_to_its_right(page):
         page.wait_for_timeout(100)
         shots.append(page.get_by_test_id("picture").evaluate("c => c.toDataURL()"))
     assert shots[0] != shots[1]
+    page.get_by_test_id("wipe").fill("0.5")
+    box = page.get_by_test_id("picture").bounding_box()
+    middle, low = box["x"] + box["width"] / 2, box["y"] + 0.7 * box["height"]
+    side = min(box["width"], box["height"])
+    place = page.get_by_test_id("event-table").get_attribute("data-pixel")
+    page.mouse.move(middle, low)
+    page.mouse.down()
+    page.mouse.move(middle + side / 4, low, steps=3)
+    page.mouse.up()
+    assert float(page.get_by_test_id("wipe").input_value()) == pytest.approx(0.75, abs=0.02)
+    assert page.get_by_test_id("event-table").get_attribute("data-pixel") == place  # which is no pick
     page.get_by_test_id("view-alone").click()
     page.get_by_test_id("wipe").wait_for(state="detached")
     page.wait_for_timeout(100)

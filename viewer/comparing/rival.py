@@ -47,6 +47,8 @@ def of_file(text):
         place = folder.whole(text)
         scene = restore(place.path, place.header["scene"]["name"])
         return Rival(text, scene, place.settings, StoredPicture(recorded_picture(place)))
+    if text.lower().endswith(".jsonl"):
+        raise TracerError(f"compare: {text} is a log, which has no picture; castray twin compares logs")
     if not Path(text).exists():
         raise TracerError(
             f"compare: {text!r} is neither a bug of the zoo, nor {RIGHT!r}, nor the file of a picture, nor a "

@@ -8,7 +8,7 @@ TEMPLATE = """
 <section class="panel picture" :aria-label="w.picture">
   <castray-picture :rgb="rgb" :width="picture.width" :height="picture.height" :x="picture.x" :y="picture.y"
     :exposure="exposure" :label="w.picture_label" :words="w" :overlay="picture.overlay" :overlay-values="overlay_values"
-    :rival="rival_rgb" :wipe="wipe" :style="{'--aspect': picture.width / picture.height}" @pick="trigger('pick', $event)"></castray-picture>
+    :rival="rival_rgb" :wipe="wipe" :style="{'--aspect': picture.width / picture.height}" @wipe="wipe = $event" @pick="trigger('pick', $event)"></castray-picture>
   <label v-if="rival_rgb.byteLength" class="row wipe"><span>a</span><input type="range" min="0" max="1" step="0.01" data-testid="wipe" :aria-label="w.wipe" :title="w.wipe"
     :value="wipe" @input="wipe = Number($event.target.value)"><span>b</span></label>
   <castray-legend v-if="picture.overlay" :overlay="picture.overlay" :words="w" @close="trigger('uncover')"></castray-legend>

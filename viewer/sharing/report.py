@@ -9,6 +9,7 @@ from viewer.cursor import Cursor
 from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
 from viewer.numerals import NOTHING
 from viewer.offline import BEGIN, document, figure, furniture
+from viewer.render import preview
 
 STYLES = Path(__file__).parent / "report.css"
 STATES = ("fired", "clean", "not_testable")
@@ -76,12 +77,12 @@ def _cause(finding, say):
 
 
 def _proof(scene, settings, first, say):
-    """The path that the first finding names, at its event."""
+    """The picture, and the path that the first finding names, at its event."""
     x, y = first["x"], first["y"]
     record = tracer.inspect(scene, settings, x, y, steps=planted(settings))
     cursor = Cursor(x, y, tuple(len(p.events) for p in record.paths), first["sample"], first["step"])
-    head = say("share.proof", x=x, y=y)
-    return f"<h2>{escape(head)}</h2>{figure(scene, record, cursor, say)}<p>{escape(say('offline.help'))}</p>"
+    head, view = say("share.proof", x=x, y=y), figure(scene, record, cursor, say, preview(scene, settings))
+    return f"<h2>{escape(head)}</h2>{view}<p>{escape(say('offline.help'))}</p>"
 
 
 def _following(diagnosis, say):

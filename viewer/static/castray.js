@@ -29,7 +29,7 @@
 
   const Picture = {
     props: ["rgb", "width", "height", "x", "y", "exposure", "label", "words", "overlay", "overlayValues", "rival", "wipe"],
-    emits: ["pick"],
+    emits: ["pick", "wipe"],
     setup(props, { emit }) {
       const canvas = ref(null), hover = ref("");
       const view = { scale: 1, left: 0, top: 0 };
@@ -112,12 +112,22 @@
         view.top = clamp(view.top, -props.height / 2, props.height / 2);
         draw();
       }
+      // where on the picture the pointer is, 0 at its left edge and 1 at its right one
+      function across(event) {
+        const box = canvas.value.getBoundingClientRect();
+        return (event.clientX - box.left - origin(box)[0]) / (unit(box) * props.width);
+      }
+      const onWipe = (event) => wiping && !covering && Math.abs(across(event) - props.wipe) * unit(canvas.value.getBoundingClientRect()) * props.width < 5;
       function down(event) {
         canvas.value.setPointerCapture(event.pointerId);
-        drag = { x: event.clientX, y: event.clientY, left: view.left, top: view.top, moved: false };
+        drag = onWipe(event) ? { wipe: true, moved: false } : { x: event.clientX, y: event.clientY, left: view.left, top: view.top, moved: false };
       }
       function move(event) {
-        if (drag) {
+        canvas.value.style.cursor = (drag && drag.wipe) || onWipe(event) ? "ew-resize" : "";
+        if (drag && drag.wipe) {
+          drag.moved = true;
+          emit("wipe", clamp(across(event), 0, 1));
+        } else if (drag) {
           const u = unit(canvas.value.getBoundingClientRect()), dx = event.clientX - drag.x, dy = event.clientY - drag.y;
           drag.moved ||= Math.hypot(dx, dy) > 4;
           if (drag.moved && view.scale > 1) { view.left = drag.left - dx / u; view.top = drag.top - dy / u; settle(); }
