@@ -59,7 +59,9 @@ def test_what_cannot_be_shown_is_one_clear_line(what, options, words):
 
 def test_importing_the_viewer_for_it_imports_no_window():
     code = "import viewer, sys; viewer.show; print('vtkmodules' in sys.modules, 'trame' in sys.modules)"
-    ran = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    ran = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, encoding="utf-8", check=True
+    )
     assert ran.stdout.split() == ["False", "False"]
 
 
