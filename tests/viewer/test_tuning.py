@@ -72,6 +72,11 @@ def test_settings_follow_what_they_need():
     assert [dial["name"] for dial in dials(lattice)] == list(TUNED)
 
 
+def test_several_bugs_that_the_command_planted_can_be_kept_in_the_list():
+    (dial,) = (dial for dial in dials(tracer.Settings(bug="E01,D06")) if dial["name"] == "bug")
+    assert dial["value"] == "E01,D06" and {"E01,D06", "E01", ""} <= set(dial["choices"])
+
+
 def test_the_link_and_the_command_say_the_changes(glass):
     settings = tracer.Settings(width=16, height=16, spp=2, max_depth=4)
     session = Session(glass, settings, tracer.load)
