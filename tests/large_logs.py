@@ -111,8 +111,8 @@ def measured(side=SIDE):
     for name, make in WAYS.items():
         with tempfile.TemporaryDirectory() as folder:
             words = make(Path(folder), side)
-            files = [words[0]] if words[0].is_file() else list(words[0].iterdir())
-            size = sum(file.stat().st_size for file in files)
+            files = [words[0], *words[0].rglob("*")]
+            size = sum(file.stat().st_size for file in files if file.is_file())
             kernel = kernel_seconds()
             found = judged(words)
             rows.append(line(name, size, found, 0.5 * (kernel + kernel_seconds())))

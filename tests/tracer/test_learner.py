@@ -20,6 +20,7 @@ MISTAKES = {
     "E02": ("return hit.emission if depth == 0 else 0.0", "return 0.0"),
     "D01": ("0.999 * length(towards)", "length(towards)"),
     "D10": ("* f * cos * cos_light", "* f * cos_light"),
+    "D20": ("wi = normalize(towards)", "wi = towards"),
     "D11": ("/ dot(towards, towards) /", "/ length(towards) /"),
     "R01": ("/ pdf / SURVIVAL", "/ pdf"),
     "R03": ("scene.random() < SURVIVAL", "scene.random() > SURVIVAL"),

@@ -9,6 +9,7 @@ from tracer.doctor.evidence import Evidence
 from tracer.doctor.laws import LAWS
 from tracer.doctor.naming import named
 from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, Outcome, Verdict, applied
+from tracer.doctor.statistics.cells import FEW
 from tracer.trace.folder import view_command
 
 # What breaks together: where the first of a group is broken, the others are too, by the same mistake.
@@ -23,6 +24,7 @@ _TOGETHER = (
     ("roulette-probability", "roulette-played"),
     ("light-pick", "light-pdf"),
     ("light-radiance", "light-pdf"),
+    ("unit-light", "light-visible"),
 )  # fmt: skip
 _OF_MANY = tuple(rule.id for rule in statistics.RULES)
 _NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
@@ -186,9 +188,10 @@ def _wrong_of_both(so_far, outcome, first):
 def _ranked(findings):
     """Causes first, in the order of the rules, and after each what follows from it."""
     fired = [f.rule for f in findings]
+    often = [f.rule for f in findings if f.rule in _OF_MANY or f.count > FEW * np.sqrt(f.checked)]
     ordered = []
     for f in findings:
-        cause = _cause(f.rule, fired)
+        cause = _cause(f.rule, often if f.rule in _OF_MANY else fired)
         ordered.append(f if cause is None else _following(f, cause))
     return tuple(sorted(ordered, key=lambda f: f.follows is not None))
 

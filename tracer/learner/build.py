@@ -124,7 +124,7 @@ class Builder:
             technique=_AREA,
             q=sample.p.plain,
             nq=sample.n.plain,
-            wi=wi,
+            wi=wi * _length(call.asked, wi),
             distance=distance,
             Le=sample.emission.value * (cos_light > 0.0),
             pdf=pdf_area * distance * distance / cos_light if cos_light > 0.0 else 0.0,
@@ -247,6 +247,15 @@ def _cosine(leaves, n):
         if leaf.kind == "dot" and any(_same(leaf.of[side], n) for side in ("a", "b"))
     }
     return next(iter(found.values())).value if len(found) == 1 else None
+
+
+def _length(asked, wi):
+    """Length of the direction along wi in which a ray was sent; 1 where none was."""
+    for d in (direction.plain for direction in asked):
+        size = float(np.linalg.norm(d))
+        if abs(size - 1.0) > _SURE and d @ wi > (1.0 - _SURE) * size:
+            return size
+    return 1.0
 
 
 def _same(a, b):

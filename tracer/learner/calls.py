@@ -28,6 +28,7 @@ class Call:
     lights: list = field(default_factory=list)  # LightSamples
     randoms: list = field(default_factory=list)  # leaves
     children: list = field(default_factory=list)  # Calls
+    asked: list = field(default_factory=list)  # directions of other rays that it sent
     returned: Any = None  # Value
 
 

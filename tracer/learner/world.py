@@ -144,6 +144,8 @@ class World:
 
     def intersect(self, ray):
         """The nearest Hit, None where the ray meets nothing."""
+        if self.log is not None and ray is not self.log.ray:
+            self.log.asked.append(ray.direction)
         own = getattr(ray.origin, "face", None)
         least = self._least if own is None else 0.0
         found = self._faces.nearest(ray.origin.plain, ray.direction.plain, least, own)

@@ -42,6 +42,8 @@ class Trace:
     "kind.field", that were not recorded but worked out from others and the scene. assumed: those of them that
     were worked out by the very law about them, so that they cannot break it.
     culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
+    left_out: how many more paths there were, which are not here for what they did, so that those that are
+    here are no fair sample.
     """
 
     scene: Any  # a Scene, in the precision of the settings
@@ -52,6 +54,7 @@ class Trace:
     rebuilt: frozenset = frozenset()
     assumed: frozenset = frozenset()
     culled: bool = False
+    left_out: int = 0
 
     @property
     def size(self):

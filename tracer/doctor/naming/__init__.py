@@ -1,12 +1,13 @@
 """Names for broken laws: which mistake of the catalogue makes these numbers.
 
 For each rule a few guesses, each a formula that predicts what was recorded. A guess that does not predict
-nearly all of the numbers is no name: then the law and the vertex are what can be said.
+nearly all of the numbers is no name: then the law and the vertex are what can be said, and by which of the
+event's own numbers the recorded one is off, where it is a product of them (`factors`).
 """
 
 import numpy as np
 
-from tracer.doctor.naming import bounce, light, many, path
+from tracer.doctor.naming import bounce, factors, light, many, path
 from tracer.doctor.naming.case import Case, Clue
 
 _NAMES = light.NAMES | bounce.NAMES | path.NAMES | many.NAMES
@@ -14,12 +15,14 @@ _NAMES = light.NAMES | bounce.NAMES | path.NAMES | many.NAMES
 
 def named(evidence, rule, outcome):
     """The Clue of what breaks a rule in a trace."""
-    guess = _NAMES.get(rule.id)
+    case, guess = Case(evidence, outcome), _NAMES.get(rule.id)
     clue = None
-    if guess is not None:
-        try:
-            with np.errstate(all="ignore"):
-                clue = guess(Case(evidence, outcome))
-        except KeyError:  # a guess needs what was not recorded
-            clue = None
+    with np.errstate(all="ignore"):
+        if guess is not None:
+            try:
+                clue = guess(case)
+            except KeyError:  # a guess needs what was not recorded
+                clue = None
+        if clue is None and outcome.p is None:
+            clue = Clue(None, factors.words(case))
     return clue or Clue(None, "")

@@ -150,7 +150,8 @@ def chance(case):
     if ends.mean() >= SHARE and (q == 0.0).any():
         depth = int(case.depth[q == 0.0].min())
         return Clue("R05", f"recorded 0 from depth {depth} on: a cut, which nothing makes up for")
-    if np.ptp(q) < 1e-6 and q.size and q[0] < 0.5 * case.right.min():
+    several = np.unique(case.depth).size > 1
+    if several and np.ptp(q) < 1e-6 and q[0] < 0.5 * case.right.min():
         return Clue(
             "R06",
             f"recorded {q[0]:.3g} everywhere, where {case.right.min():.3g} and more is declared: of "

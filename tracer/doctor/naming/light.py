@@ -99,7 +99,7 @@ def visible(case):
         )
     dark, hidden = wrongly_dark.mean(), ~free
     if dark <= 0.01 and (seen & hidden).sum() >= 0.99 * hidden.sum():
-        return Clue("D03", "every blocked light point counts as seen: the comparison is reversed")
+        return Clue("D03", "every blocked light point counts as seen: the test is not made, or reversed")
     if wrongly_dark.sum() >= 0.99 * free.sum() and wrongly_seen.sum() >= 0.99 * hidden.sum():
         return Clue("D03", "seen and blocked are exchanged")
     if not wrongly_dark.any():

@@ -49,8 +49,14 @@ def points(case):
                 words = (
                     f"its two triangles are evenly filled, but get {low.mean():.1%} and {1 - low.mean():.1%}"
                 )
-                return Clue("D15", f"{words}: they are not chosen by area")
+                return Clue(_root_of_the_choice(low), f"{words}: they are not chosen by area")
     return None
+
+
+def _root_of_the_choice(low):
+    """D15 where one of two halves gets a quarter, as the root of a uniform number leaves it."""
+    least = min(low.mean(), 1.0 - low.mean())
+    return "D15" if abs(least - 0.25) < 4.0 * np.sqrt(0.1875 / low.size) else None
 
 
 def _fills_triangle(s, t):

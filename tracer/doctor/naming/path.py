@@ -12,19 +12,35 @@ def weight(case):
     settings, recorded = case.evidence.settings, case.recorded
     pdf_bsdf = case["pdf_bsdf"] if case.has("pdf_bsdf") else np.full(recorded.shape, np.nan)
     pdf_light = case["pdf_light"]
-    always = bool(((recorded == 1.0) & (case.right < 1.0)).mean() >= SHARE)
+    twice = bool(((recorded == 1.0) & (case.right < 1.0)).mean() >= SHARE)
+    never = bool(((recorded == 0.0) & (case.right == 1.0)).mean() >= SHARE)
+    depths = ", ".join(map(str, np.unique(case.depth)))
+    outcome = case.outcome
+    # Of lamps that are met alike, some only: then it is not the rule that is wrong.
+    alike = outcome.right < 1.0 if twice else outcome.right == 1.0
+    everywhere = bool(outcome.wrong[alike].mean() >= SHARE)
     return first(
         case,
         [
             (
                 ("E01", "E04"),
                 "recorded 1 at lamps that light samples counted at the vertex before: counted twice",
-                always,
+                twice and everywhere,
+            ),
+            (
+                None,
+                f"recorded 1 at depth {depths}, at lamps that light samples counted at the vertex before",
+                twice,
             ),
             (
                 "E02",
                 "recorded 0 at lamps that nothing else can count: their own light is lost",
-                bool(((recorded == 0.0) & (case.right == 1.0)).mean() >= SHARE),
+                never and everywhere,
+            ),
+            (
+                None,
+                f"recorded 0 at some lamps that nothing else can count, at depth {depths}",
+                never,
             ),
             (
                 "M02",
@@ -107,13 +123,17 @@ def _never_met(case):
     return Clue(None, f"no ray meets {names}")
 
 
+_OFTEN = 0.005  # share of the vertices that rays without any offset meet again, and more
+
+
 def own_surface(case):
     """Rays that meet what they start on."""
     share = case.outcome.wrong.sum() / max(case.outcome.rows.size, 1)
     ball = case.evidence.brute.is_sphere.take(case["primitive"])
-    words = (
-        f"{share:.0%} of the vertices lie on the surface that the ray starts on: it has no offset, no least t"
-    )
+    words = f"{share:.2%} of the vertices lie on the surface that the ray starts on"
+    if share < _OFTEN:
+        return Clue(None, f"{words}: what keeps rays off it is not enough everywhere")
+    words = f"{words}: it has no offset, no least t"
     if ball.mean() >= SHARE:
         return Clue("G08", words, ("G03",))
     return Clue("G03", words, ("G08",) if ball.any() else ())
@@ -145,6 +165,10 @@ def normal(case):
     """Normals that are not the surface's."""
     size = length(case.recorded)
     turned = dot(case.recorded, case.right) < -0.999 * size
+    if (turned & (dot(case.recorded, case["wo"]) > 0.0)).mean() >= SHARE:
+        return Clue(
+            None, "recorded = -right wherever the back is seen: it is turned to where the ray comes from"
+        )
     return first(
         case,
         [
@@ -279,7 +303,7 @@ def camera_ray(case):
     if inside.all() and np.mean(np.abs(off - off.round()) < 0.01) >= SHARE:
         return Clue("P05", "the rays are those of other pixels of the picture, by whole pixels")
     if inside.all():
-        return Clue("P05", "the rays are those of other places in the picture")
+        return Clue(None, "the rays are those of other places in the picture")
     return None
 
 

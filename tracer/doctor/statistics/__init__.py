@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, NotRecordedError, Outcome, Rule, Verdict
 from tracer.doctor.statistics import directions, lamps, means, numbers
-from tracer.doctor.statistics.cells import ALPHA
+from tracer.doctor.statistics.cells import ALPHA, FEW
 
 _VERTEX = ("hit.p", "hit.n", "hit.wo", "hit.primitive")
 RULES = (
@@ -102,6 +102,9 @@ def judged(evidence):
 
 
 def _cells(rule, evidence):
+    trace = evidence.trace
+    if trace.left_out > FEW * np.sqrt(trace.size):
+        return [], f"{trace.left_out} paths, which are left out for what they did"
     missing = [place for place in rule.needs if not evidence.has(place)]
     if missing:
         return [], ", ".join(missing)

@@ -12,6 +12,7 @@ import numpy as np
 
 ALPHA = 1e-4  # chance that a right trace breaks any statistical law
 ENOUGH = 200.0  # a cell of a chi-square test expects at least so many
+FEW = 0.5  # times the root of their number: so few of all events move no test by more than its own spread
 FEWEST = 100  # with fewer events there is no test
 
 

@@ -14,13 +14,15 @@ from tracer.trace.jsonl.lines import Columns
 @dataclass
 class Chain:
     """Calls in the order of path and nesting. path: (N,) row of its path; level: (N,) how deep it is nested;
-    last: (N,) whether its path has no further call; notes: what was left out, in words."""
+    last: (N,) whether its path has no further call; notes: what was left out, in words; left_out: number of
+    paths that were, for what they did."""
 
     columns: Columns
     path: np.ndarray
     level: np.ndarray
     last: np.ndarray
     notes: list
+    left_out: int = 0
 
     def __call__(self, name):
         """A column (..., N) in float64, NaN where not given."""

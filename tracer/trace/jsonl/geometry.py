@@ -1,9 +1,12 @@
 """Which surface of the scene a logged point lies on, and what the surface is there."""
 
+from itertools import product
+
 import numpy as np
 
 LANES = 1 << 16  # rays that are asked for at once
 NEAR = 1e-3  # share of the scene's size by which a logged point may be off its surface
+SLACK = 1e-5  # the same of rounding alone
 
 
 def scale(scene):
@@ -63,20 +66,32 @@ def _nearer(scene, p, d, reach, found, off, lanes):
 
 
 def at_edges(scene, p, n, d, primitive, lanes):
-    """Where the logged normal n (3, N) is not that of the primitive (N,) found at p, look for one nearby that
-    has it, and write its number: near an edge rounding decides which of two faces a ray meets first."""
+    """Where the logged normal n (3, N) is not that of the primitive (N,) found at p, look for one that has it
+    and is as near, and write its number: near an edge rounding decides which of two faces a ray meets first.
+
+    What lies beyond the edge by its rounding is looked for from this side of the face that was found.
+    """
     ng, _ = surfaces(scene, p[:, lanes], d[:, lanes], primitive[lanes])
-    odd = lanes[~(np.abs((ng * n[:, lanes]).sum(axis=0)) > 0.9999)]
-    for share in (1e-3, 1e-4, 1e-5, 1e-6):
-        for side in (1.0, -1.0):
-            if not odd.size:
-                return
-            reach, way = share * scale(scene), -side * n[:, odd]
-            t, other = met(scene, p[:, odd] - reach * way, way)
-            there, _ = surfaces(scene, p[:, odd], way, np.where(t < 2.0 * reach, other, -1))
-            fits = np.abs((there * n[:, odd]).sum(axis=0)) > 0.9999
-            primitive[odd[fits]] = other[fits]
-            odd = odd[~fits]
+    wrong = ~(np.abs((ng * n[:, lanes]).sum(axis=0)) > 0.9999)
+    odd, ng = lanes[wrong], np.nan_to_num(ng[:, wrong])
+    off = np.where(ng.any(axis=0), _height(scene, p[:, odd], ng) + SLACK * scale(scene), NEAR * scale(scene))
+    for share, side, beside in product((1e-3, 1e-4, 1e-5, 1e-6), (1.0, -1.0), (0.0, 2.0 * SLACK)):
+        if not odd.size:
+            return
+        reach, way = share * scale(scene), -side * n[:, odd]
+        start = p[:, odd] + beside * scale(scene) * ng
+        t, other = met(scene, start - reach * way, way)
+        there, _ = surfaces(scene, p[:, odd], way, np.where(np.abs(t - reach) <= off, other, -1))
+        fits = np.abs((there * n[:, odd]).sum(axis=0)) > 0.9999
+        primitive[odd[fits]] = other[fits]
+        odd, ng, off = odd[~fits], ng[:, ~fits], off[~fits]
+
+
+def _height(scene, p, ng):
+    """How far points (3, N) are above surfaces with normals ng just below or above them, (N,); 0 for none."""
+    reach = NEAR * scale(scene)
+    t, _ = met(scene, p + reach * ng, -ng)
+    return np.where(t < 2.0 * reach, np.abs(t - reach), 0.0)
 
 
 def surfaces(scene, p, d, primitive):

@@ -119,7 +119,9 @@ def culled(chain, places):
         return chain, places
     keep = ~out[chain.path]
     path = (np.cumsum(~out) - 1)[chain.path[keep]]
-    kept = Chain(chain.columns.take(keep), path, chain.level[keep], chain.last[keep], notes)
+    kept = Chain(
+        chain.columns.take(keep), path, chain.level[keep], chain.last[keep], notes, int(np.count_nonzero(out))
+    )
     return kept, Places(*(column[..., keep] for column in vars(places).values()))
 
 

@@ -132,7 +132,7 @@ def _of_calls(read, scene, exact, settings):
     rebuilt = frozenset(telling.rebuilt)
     trace = Trace(
         scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, frozenset(assumed),
-        culled=True,
+        culled=True, left_out=chain.left_out,
     )  # fmt: skip
     return trace, [*chain.notes, *notes]
 

@@ -1,0 +1,10 @@
+"""Mistakes that are in no catalogue: what the doctor was not written for.
+
+Each says which laws a reader would call the broken ones, and which names of the catalogue would be fair,
+mostly none. `steps` are replaced steps of castray's own loop, `cpp` and `python` changed lines of programs
+that log, or are watched.
+"""
+
+from outside import cpp, python, steps
+
+MISTAKES = {mistake.id: mistake for family in (steps, cpp, python) for mistake in family.MISTAKES}

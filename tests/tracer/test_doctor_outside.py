@@ -1,0 +1,73 @@
+"""The doctor and mistakes that are in no catalogue: the law and the vertex, and no wrong name."""
+
+from dataclasses import replace
+
+import doctor_outside
+import doctor_paper
+import numpy as np
+import pytest
+from mutants import changed, traced, with_column
+from outside import MISTAKES
+
+from tracer.doctor import examine
+from tracer.doctor.statistics.cells import FEW
+
+QUICK = ("f-twice", "cosine-of-the-lamp", "towards-the-ray", "roulette-early", "barrel")
+SLOW = ("c++ first-material", "c++ product-of-numbers")
+
+
+@pytest.mark.parametrize("id", [*QUICK, *(pytest.param(id, marks=pytest.mark.slow) for id in SLOW)])
+def test_a_mistake_of_no_catalogue_breaks_its_law_and_gets_no_wrong_name(id):
+    mistake = MISTAKES[id]
+    causes = mistake.diagnosed().causes
+    assert causes[0].rule in mistake.laws and causes[0].count > 0
+    assert {f.bug for f in causes if f.bug} <= set(mistake.fair)
+
+
+@pytest.mark.parametrize(
+    ("factor", "words"),
+    [
+        (lambda t: np.float32(1.37), "recorded = 1.37 x right"),
+        (
+            lambda t: t.tables["light"]["cos"] ** 2 / t.tables["light"]["distance"],
+            "recorded = right x cos^2 / r",
+        ),
+        (lambda t: np.random.default_rng(1).random(t.tables["light"].path.size, np.float32), ""),
+    ],
+)
+def test_what_is_too_much_is_told_in_the_events_own_numbers(factor, words):
+    right = traced("room")
+    term = right.tables["light"]["contribution"] * factor(right)
+    (finding,) = [f for f in examine(with_column(right, "light.contribution", term)).findings if f.p is None][
+        :1
+    ]
+    assert (finding.rule, finding.bug, finding.explanation) == ("light-term", None, words)
+
+
+@pytest.mark.statistical
+def test_a_single_odd_event_explains_no_distribution():
+    crowded = changed(traced("room", spp=8), "bounce.wi", np.abs)
+    odd = np.arange(crowded.tables["hit"].path.size) == 100
+    both = examine(changed(crowded, "hit.n", lambda n: n * np.float32(0.9), odd))
+    follows = {f.rule: f.follows for f in both.findings}
+    assert "unit-normal" in follows and follows["directions"] != "unit-normal"
+
+
+def test_paths_that_were_chosen_by_what_they_did_show_no_distribution():
+    right = traced("room")
+    few = int(FEW * np.sqrt(right.size))
+    tested = {left: examine(replace(right, left_out=left)).rules for left in (few, few + 1)}
+    many = {left: {v.state for v in rules if v.rule.id == "directions"} for left, rules in tested.items()}
+    assert many == {few: {"clean"}, few + 1: {"not_testable"}}
+
+
+def test_the_table_of_such_mistakes_is_written(tmp_path):
+    paper = tmp_path / "DOCTOR.md"
+    row = doctor_outside.measured(MISTAKES["f-twice"])
+    doctor_paper.write("outside", doctor_outside.text({"f-twice": row}), paper)
+    text = paper.read_text(encoding="utf-8")
+    assert (
+        "| f-twice |" in text
+        and "| no name | recorded = right x pi x f |" in text
+        and "0 a wrong one" in text
+    )
