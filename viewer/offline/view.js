@@ -1,5 +1,5 @@
 // A picture and the paths of one of its pixels in 3D, drawn by the page alone: it asks nobody for anything.
-// castrayView(element, data) gives {show(place)}; viewer/offline/data.py says what data holds.
+// castrayView(element, data) gives {show(place)}; viewer/offline/view.py says what data holds.
 window.castrayView = (element, data) => {
   const LINE = `attribute vec3 a, b; attribute vec2 corner, width; attribute vec3 colour; attribute float dash;
     uniform mat4 m; uniform vec2 size; varying vec3 tint; varying vec2 along; const float NEAR = 0.001;
