@@ -103,7 +103,8 @@ def equation(what, values):
 
 def chance(finding, say):
     """How rarely a right tracer does that, in words."""
-    return say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}")
+    said = say("doctor.chance_is", times=f"{1 / max(finding.p, 1e-300):.3g}")
+    return f"{said}; {say('doctor.chance_again' if finding.confirmed else 'doctor.chance_once')}"
 
 
 def lesson(finding):

@@ -49,6 +49,7 @@ def planned(settings, most=MOST_PATHS):
 
 def examined(scene, settings, recording, stopped):
     """The Chart of a scene with these settings, or of its recording. stopped(): raises to give up."""
+    from tracer.doctor.fresh import by_chance, confirmed, fresh
     from tracer.trace import join, parts
 
     if recording is not None:
@@ -61,7 +62,12 @@ def examined(scene, settings, recording, stopped):
             traces.append(part)
         trace = join(traces)
     stopped()
-    diagnosis = tracer.examine(trace).explained_by(about)
+    diagnosis = tracer.examine(trace)
+    if recording is None and by_chance(diagnosis):
+        stopped()
+        few = fresh(few)
+        diagnosis = confirmed(diagnosis, join(parts(scene, few, planted(few), pixels)))
+    diagnosis = diagnosis.explained_by(about)
     causes = {finding.rule for finding in diagnosis.causes}
     broken = {v.rule.id: _where(trace, v.outcome) for v in diagnosis.rules if v.rule.id in causes}
     return Chart(diagnosis=_light(diagnosis), paths=trace.size, broken=broken)

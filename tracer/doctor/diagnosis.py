@@ -40,7 +40,8 @@ class Finding:
     bug: id of the most likely mistake of the catalogue, None where none fits; alike: ids that no trace tells
     from it; count of checked events; first: where it shows, {x, y, sample, depth}, with the kind of event and
     its step in the path; recorded and right: the number there, side by side; p: of a statistical law;
-    follows: id of the finding that this one comes from, None for a cause of its own.
+    follows: id of the finding that this one comes from, None for a cause of its own; confirmed: of a
+    statistical law whether fresh data break it as well, None where none could be had.
     """
 
     rule: str
@@ -60,6 +61,7 @@ class Finding:
     follows: str | None = None
     p: float | None = None
     lesson: int | None = None
+    confirmed: bool | None = None
 
     def as_dict(self):
         """Plain values."""
@@ -132,7 +134,7 @@ def examine(trace):
     many = statistics.judged(whole)
     findings = [judged.finding for judged in single if judged.finding is not None]
     findings += [_finding(whole, verdict) for verdict in many if verdict.state == FIRED]
-    return Diagnosis(_ranked(findings), (*(judged.verdict for judged in single), *many))
+    return Diagnosis(ranked(findings), (*(judged.verdict for judged in single), *many))
 
 
 def _ranges(trace):
@@ -185,7 +187,7 @@ def _wrong_of_both(so_far, outcome, first):
     return Outcome(outcome.kind, rows, np.ones(rows.size, bool), np.zeros(rows.size, bool), what=outcome.what)
 
 
-def _ranked(findings):
+def ranked(findings):
     """Causes first, in the order of the rules, and after each what follows from it."""
     fired = [f.rule for f in findings]
     often = [f.rule for f in findings if f.rule in _OF_MANY or f.count > FEW * np.sqrt(f.checked)]

@@ -43,6 +43,9 @@ def doctor(
         Of a picture: a file for it, the right one and their ratio side by side.
     """
     from lessons.course import about
+    from lessons.zoo import planted
+    from tracer.doctor.fresh import by_chance, confirmed, fresh
+    from tracer.trace import gather
     from viewer.picture_doctor import is_picture
     from viewer.recorded import is_recording
 
@@ -56,7 +59,10 @@ def doctor(
         check_place(html)
     recorded = is_recording(what)
     trace = _recorded(what, scene, options) if recorded else _trace(what, scene, options)
-    diagnosis = tracer.examine(trace).explained_by(about)
+    diagnosis = tracer.examine(trace)
+    if by_chance(diagnosis) and not recorded and not what.lower().endswith(".jsonl"):
+        diagnosis = confirmed(diagnosis, gather(trace.scene, fresh(trace.settings), planted(trace.settings)))
+    diagnosis = diagnosis.explained_by(about)
     diagnosis = replayed(diagnosis, trace.scene, trace.settings, what if recorded else None)
     if html is not None:
         _write(html, diagnosis, trace, again=not what.lower().endswith(".jsonl"))
