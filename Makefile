@@ -2,6 +2,7 @@
 # make check: format, lint, types.  make seeds: the statistical tests under 20 other seeds.
 # make accuracy: measures and writes ACCURACY.md.  make peers: compares with Mitsuba, likewise.  make clean.
 # make doctor-table: which bugs of the zoo the doctor names, into DOCTOR.md.
+# make picture-table: which of them a picture alone tells, into DOCTOR.md.
 # make false-alarms: how often it finds something in right traces, into DOCTOR.md.
 # make lessons: the lessons as web pages, into .lessons/ (OPTIONS=--no-solutions leaves those out).
 # make bench: measures and writes BENCHMARKS.md.  make race: the part of it with Mitsuba.
@@ -15,7 +16,7 @@ export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
 
-.PHONY: run test quick check format seeds accuracy peers lessons bench race doctor-table false-alarms clean system
+.PHONY: run test quick check format seeds accuracy peers lessons bench race doctor-table picture-table false-alarms clean system
 
 run: .venv/.run
 	$(RUN) viewer.cli view cornell_unit
@@ -47,6 +48,10 @@ accuracy: .venv/.dev
 # A quarter of an hour on two cores; may be stopped and goes on where it was.
 doctor-table: .venv/.dev
 	.venv/bin/python tests/doctor_table.py
+
+# Some minutes; may be stopped and goes on where it was.
+picture-table: .venv/.dev
+	.venv/bin/python tests/picture_table.py
 
 # How often the doctor finds something in right traces. Hours; may be stopped and goes on where it was.
 false-alarms: .venv/.dev

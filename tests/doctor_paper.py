@@ -16,6 +16,7 @@ them; what breaks one is named, shown and can be replayed. Commands write this p
 """
 SECTIONS = {
     "table": ("Bugs of the zoo", "make doctor-table"),
+    "pictures": ("From a picture alone", "make picture-table"),
     "alarms": ("False alarms", "make false-alarms"),
     "outside": ("Bugs outside the catalogue", "python tests/doctor_outside.py"),
     "large": ("A million vertices", "python tests/large_logs.py"),

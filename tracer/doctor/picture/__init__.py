@@ -2,12 +2,13 @@
 
 from tracer.doctor.picture.features import Features, features, resampled
 from tracer.doctor.picture.fitting import Fit, Looks, fit, misfit
-from tracer.doctor.picture.hypotheses import FITS, Hypothesis, Opinion, judged
+from tracer.doctor.picture.hypotheses import FITS, LEAST, Hypothesis, Opinion, judged
 from tracer.doctor.picture.reading import opened
 from tracer.doctor.picture.walls import Wall, predicted
 
 __all__ = [
     "FITS",
+    "LEAST",
     "Features",
     "Fit",
     "Hypothesis",
