@@ -81,14 +81,15 @@ def text(rows):
     pairs = [row for row in rows.values() if "+" in row["key"]]
     quiet = [row["key"] for row in rows.values() if not row["shows"]]
     told = "; ".join(
-        f"in {kind} {share(seen, 1, kind)} are the first hypothesis and {share(seen, 3, kind)} among the first "
-        f"three, of {len(pairs)} mixtures {share(pairs, 1, kind)} and {share(pairs, 3, kind)}"
+        f"in {kind} {share(seen, 1, kind)} are the first hypothesis and {share(seen, 3, kind)} among the "
+        f"first three, of {len(pairs)} mixtures {share(pairs, 1, kind)} and {share(pairs, 3, kind)}"
         for kind in KINDS
     )
     return (
-        f"Pictures of the homework's scene, {SIDE} x {SIDE}, {SPP} spp, at commit {commit()}, the number of samples "
-        f"unknown to the doctor. {len(seen)} bugs change such a picture: {told}. {', '.join(quiet)} change it by "
-        f"no more than noise.\n\n| bug | shows | first hypothesis, 8 bits | place | linear | place |\n"
+        f"Pictures of the homework's scene, {SIDE} x {SIDE}, {SPP} spp, at commit {commit()}, the number of "
+        f"samples unknown to the doctor. {len(seen)} bugs change such a picture: {told}. "
+        f"{', '.join(quiet)} change it by no more than noise.\n\n"
+        "| bug | shows | first hypothesis, 8 bits | place | linear | place |\n"
         "|---|---|---|---|---|---|\n" + "\n".join(line(row) for row in rows.values()) + "\n"
     )
 

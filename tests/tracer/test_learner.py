@@ -10,7 +10,7 @@ from suite import castray
 import tracer
 from tracer.learner import child, starter
 from tracer.learner.value import Vector, dot, known, named
-from viewer.commands.check import _settings, _together
+from viewer.checking.learner import settings_of, together
 
 TEXT = Path(starter.__file__).read_text(encoding="utf-8")
 
@@ -30,9 +30,9 @@ QUICK = ("E01",)
 
 
 def judged(path, **more):
-    settings = _settings(None).as_dict() | {"width": 10, "height": 10, "spp": 6} | more
+    settings = settings_of(None).as_dict() | {"width": 10, "height": 10, "spp": 6} | more
     request = {"file": str(path), "scene": "cornell", "settings": settings}
-    return _together(*(tracer.examine(trace) for trace in child.run(request)))
+    return together(*(tracer.examine(trace) for trace in child.run(request)))
 
 
 def written(tmp_path, text):
@@ -73,7 +73,7 @@ def test_what_is_in_no_catalogue_is_found_all_the_same(tmp_path, right, wrong):
 @pytest.mark.statistical
 def test_the_starter_draws_what_castray_draws():
     """Mean of the picture within 4 standard errors, which are 3 % of it; twice as bright is not."""
-    settings = _settings(None).as_dict() | {"width": 16, "height": 16, "spp": 16}
+    settings = settings_of(None).as_dict() | {"width": 16, "height": 16, "spp": 16}
     trace, _ = child.run({"file": starter.__file__, "scene": "cornell", "settings": settings})
     found = trace.paths["radiance"].mean(axis=0)
     error = found.std(ddof=1) / np.sqrt(found.size)

@@ -16,9 +16,9 @@ from tracer.settings import Settings, TracerError
 from tracer.trace.trace import Table, Trace
 
 
-def run(path, scene, settings, seconds=300.0):
+def run(path, scene, settings, seconds=300.0, quiet=False):
     """The Traces of a learner's cast_ray on a scene (a file or name): of all light samples, and of those only
-    that bring something (see build).
+    that bring something (see build). quiet: what the file prints goes nowhere.
 
     Raises TracerError with the learner's file and line where it fails, or says what it exceeded.
     """
@@ -39,7 +39,7 @@ def run(path, scene, settings, seconds=300.0):
         }
         asked = Path(folder) / "request.json"
         asked.write_text(json.dumps(request), encoding="utf-8")
-        ended = _ended(asked, seconds, path)
+        ended = _ended(asked, seconds, path, quiet)
         if not answer.is_file():
             raise TracerError(
                 f"{path.name}: its process ended with code {ended}; "
@@ -53,12 +53,17 @@ def run(path, scene, settings, seconds=300.0):
         return tuple(_read(name, ready, found) for name in names)
 
 
-def _ended(asked, seconds, path):
+def _ended(asked, seconds, path, quiet):
     """The code with which the child ended."""
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         return subprocess.run(
-            [sys.executable, "-m", child.__name__, str(asked)], timeout=seconds, env=environment, check=False
+            [sys.executable, "-m", child.__name__, str(asked)],
+            timeout=seconds,
+            env=environment,
+            check=False,
+            stdin=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL if quiet else None,
         ).returncode
     except subprocess.TimeoutExpired:
         raise TracerError(

@@ -1,16 +1,13 @@
 """The command `castray check`."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-import tracer
+from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
-from viewer.options import CheckOptions, Json, print_json, settings_and_steps
-
-SIDE, SPP = 24, 8  # of the small picture that is traced unless said
+from viewer.options import CheckOptions, Json, print_json
 
 
 def check(
@@ -20,41 +17,84 @@ def check(
     scene: str = "cornell",
     new: Annotated[bool, Parameter(negative=())] = False,
     seconds: float = 300.0,
+    csv: Path | None = None,
+    html: Path | None = None,
     options: CheckOptions | None = None,
     json: Json = False,
 ):
     """Run your own cast_ray and hold the laws of light transport against what it did.
 
-    Exit code 0 if nothing is found, 1 if something is.
+    Exit code 0 if nothing is found, 1 if something is. Of a folder every tracer (.py), log (.jsonl) and
+    picture is judged, and what cannot be judged counts as found; hypotheses from pictures do not.
 
     Parameters
     ----------
     file
-        A Python file with a function cast_ray(scene, ray, depth).
+        A Python file with a function cast_ray(scene, ray, depth), or a folder of submissions.
     scene
         What it is asked to trace: a scene file, or the bare name of one that comes with castray.
     new
         Write a tracer to start from into that file, and do no more.
     seconds
-        Most time it may take.
+        Most time that each may take.
+    csv
+        Of a folder: where the table goes for spreadsheets.
+    html
+        Of a folder: where the table goes as a page that needs nothing else, with what proves each finding.
     """
     if new:
         _write_starter(file)
         return 0
     if not 0.0 < seconds < float("inf"):
         raise TracerError(f"seconds: {seconds} is not a time")
+    if file.is_dir():
+        return _folder(file, scene, seconds, csv, html, options, json)
+    if csv is not None or html is not None:
+        raise TracerError(f"--{'csv' if csv is not None else 'html'}: is for a folder; {file} is none")
     from lessons.course import about
-    from tracer.learner.run import run
+    from viewer.checking.learner import examined
 
-    traces = run(file, scene, _settings(options), seconds)
-    diagnosis = _together(*(tracer.examine(trace) for trace in traces)).explained_by(about)
+    diagnosis, trace = examined(file, scene, options, seconds)
+    diagnosis = diagnosis.explained_by(about)
     if json:
         print_json(diagnosis.as_dict())
     else:
         from viewer.doctor_report import print_diagnosis
 
-        print_diagnosis(diagnosis, traces[0])
+        print_diagnosis(diagnosis, trace)
     return 1 if diagnosis.findings else 0
+
+
+def _folder(folder, scene, seconds, csv, html, options, json):
+    """Every submission of a folder: a row each."""
+    from tracer import load
+    from viewer.checking import report
+    from viewer.checking.submission import FAILED, WRONG, files_in, row_of
+    from viewer.progress import watched
+    from viewer.words import Speaker
+
+    for place in filter(None, (csv, html)):
+        check_place(place)
+    say, files, rows = Speaker(), files_in(folder), []
+    load(scene)  # what is wrong with it is said once
+    with watched(say("check.judging")) as progress:
+        for done, (path, name) in enumerate(files):
+            rows.append(row_of(path, name, scene, options, seconds))
+            if progress:
+                progress(done + 1, len(files))
+    if csv is not None:
+        _write(csv, report.as_csv(rows, say))
+    if html is not None:
+        _write(html, report.as_html(rows, folder, scene, say))
+    if json:
+        print_json(report.as_dict(rows, folder, scene, say))
+    else:
+        report.print_rows(rows, say)
+    return 1 if any(row.state in (WRONG, FAILED) for row in rows) else 0
+
+
+def _write(place, text):
+    write_whole(place, lambda beside: Path(beside).write_text(text, encoding="utf-8", newline=""))
 
 
 def _write_starter(file):
@@ -67,29 +107,3 @@ def _write_starter(file):
     except OSError as error:
         raise TracerError(f"{file}: {error.strerror}") from None
     print(f"{file}: a tracer to start from; castray check {file} judges it")
-
-
-def _settings(options):
-    """float64, pixel centres and lamps sampled by area, as the homework has them."""
-    settings, _ = settings_and_steps(options)
-    if settings.width is None:
-        settings = replace(settings, width=SIDE, height=SIDE)
-    if options is None or options.spp == CheckOptions().spp:
-        settings = replace(settings, spp=SPP)
-    return replace(settings, precision=64, integrator="direct", light_sampling="area", jitter=False)
-
-
-def _together(first, second):
-    """One diagnosis of two: what the first could not test is what the second says. The commands that would
-    replay castray's own paths are left out."""
-    open_ = {verdict.rule.id for verdict in first.rules if verdict.state == "not_testable"}
-    later = {verdict.rule.id: verdict for verdict in second.rules}
-    rules = tuple(later[v.rule.id] if v.rule.id in open_ else v for v in first.rules)
-    more = [f for f in second.findings if f.rule in open_]
-    seen = [f for f in first.findings if f.p is None]
-    means = [f for f in first.findings if f.p is not None]
-    if more:  # what is off on average is so because of them
-        cause = next((f.rule for f in (*seen, *more) if f.follows is None), None)
-        means = [replace(f, follows=cause, bug=None, alike=()) for f in means]
-    findings = tuple(replace(f, command=None) for f in (*seen, *more, *means))
-    return replace(first, findings=findings, rules=rules)

@@ -1,0 +1,188 @@
+"""What the rows of a folder say: as a table in the terminal, as CSV, as one HTML file, as JSON."""
+
+import csv
+import io
+from html import escape
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from tracer.doctor.picture import Hypothesis
+from viewer.checking.submission import FAILED, MAYBE, RIGHT, SKIPPED, WRONG
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
+from viewer.offline import document
+
+COLUMNS = ("name", "state", "passed", "failed", "finding", "certainty", "where", "command")
+_STYLE = {RIGHT: "green", WRONG: "bold red", MAYBE: "yellow", FAILED: "red", SKIPPED: "dim"}
+_FORMULA = tuple("=+-@\t\r\n")  # what a spreadsheet takes for the start of a formula
+_STYLES = Path(__file__).parent.parent / "sharing" / "report.css"
+
+
+def cells(row, say):
+    """The texts of a row by COLUMNS."""
+    return {
+        "name": row.name,
+        "state": say(f"check.{row.state}"),
+        "passed": _parts(row.passed, say),
+        "failed": _parts(row.failed, say),
+        "finding": finding(row, say),
+        "certainty": certainty(row, say),
+        "where": where(row, say),
+        "command": row.command,
+    }
+
+
+def _parts(kinds, say):
+    return say.listed(*(say.optional(f"kind.{kind}", kind) for kind in kinds))
+
+
+def finding(row, say):
+    """What is wrong, in short."""
+    if row.state == FAILED:
+        return say.error(row.error)
+    if row.found is None:
+        return say("check.unknown") if row.state == MAYBE else ""
+    if isinstance(row.found, Hypothesis):
+        if row.found.factor is not None:
+            return say("pic.factor", factor=row.found.factor)
+        return " + ".join(row.found.bugs)
+    named = bugs(row.found, say)
+    title = bug_title(row.found.bug, say) if row.found.bug else counted(row.found, say)["title"]
+    return f"{named} {title}".strip()
+
+
+def certainty(row, say):
+    """How sure that is: a law that is broken, a chance, or a hypothesis."""
+    found = row.found
+    if found is None:
+        return ""
+    if isinstance(found, Hypothesis):
+        if found.explains is None:
+            return say("check.hypothesis")
+        return say("check.hypothesis_fits", explains=found.explains)
+    return chance(found, say) if found.p is not None else say("doctor.not_so", **counted(found, say))
+
+
+def where(row, say):
+    """Where it shows first."""
+    first = getattr(row.found, "first", None)
+    return place(first, say) if first else ""
+
+
+def print_rows(rows, say, console=None):
+    """A table of all but those that were skipped, and these in a line."""
+    console = console or Console(highlight=False)
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    shown = ("name", "state", "failed", "finding")
+    for name in shown:
+        table.add_column(say(f"check.column_{name}"), overflow="fold")
+    for row in rows:
+        if row.state == SKIPPED:
+            continue
+        said = {name: printable(text) for name, text in cells(row, say).items()}
+        told = Text(said["finding"])
+        if said["certainty"]:
+            told.append(f"\n{said['certainty']}", style="dim")
+        table.add_row(
+            Text(said["name"]), Text(said["state"], style=_STYLE[row.state]), Text(said["failed"]), told
+        )
+    console.print(table)
+    skipped = [printable(row.name) for row in rows if row.state == SKIPPED]
+    if skipped:
+        console.print(Text(say("check.skipped_files", files=say.listed(*skipped)), style="dim"))
+    commands = [row.command for row in rows if row.state in (WRONG, MAYBE) and row.command]
+    if commands:
+        console.print(Text(f"\n{say('check.proof')}"))
+        for command in commands:
+            console.print(Text(printable(command)), soft_wrap=True)
+
+
+def printable(text):
+    """A text without what would steer a terminal, or cannot be written."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
+def as_csv(rows, say):
+    """The table for spreadsheets; no cell of it is taken for a formula."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow([say(f"check.column_{name}") for name in COLUMNS])
+    for row in rows:
+        said = cells(row, say)
+        writer.writerow([_harmless(printable(said[name])) for name in COLUMNS])
+    return "\N{ZERO WIDTH NO-BREAK SPACE}" + out.getvalue()  # without the mark Excel misreads Chinese
+
+
+def _harmless(text):
+    return f"'{text}" if text.lstrip().startswith(_FORMULA) else text
+
+
+def as_html(rows, folder, scene, say):
+    """The table as a page that needs nothing else; each name leads to what was found there."""
+    shown = ("name", "state", "passed", "failed", "finding", "certainty")
+    heads = "".join(f'<th scope="col">{escape(say(f"check.column_{name}"))}</th>' for name in shown)
+    lines, sections = [], []
+    for number, row in enumerate(rows):
+        said = {name: escape(printable(text)) for name, text in cells(row, say).items()}
+        name = f'<a href="#s{number}">{said["name"]}</a>' if row.more else said["name"]
+        rest = "".join(f"<td>{said[column]}</td>" for column in shown[1:])
+        lines.append(f'<tr class="{row.state}" data-state="{row.state}"><td>{name}</td>{rest}</tr>')
+        if row.more:
+            parts = "".join(_detail(found, say) for found in row.more)
+            command = f"<p><code>{said['command']}</code></p>" if row.command else ""
+            sections.append(f'<section id="s{number}"><h2>{said["name"]}</h2>{command}{parts}</section>')
+    title = say("check.title", folder=printable(str(folder)), scene=scene)
+    body = (
+        f'<main class="report submissions"><h1>{escape(title)}</h1><table><thead><tr>{heads}</tr></thead>'
+        f"<tbody>{''.join(lines)}</tbody></table>{''.join(sections)}</main>"
+    )
+    return document(title, body, say.language, _STYLES.read_text(encoding="utf-8"))
+
+
+def _detail(found, say):
+    """A finding or a hypothesis with its evidence."""
+    if isinstance(found, Hypothesis):
+        told = [f"{bug} {bug_title(bug, say)}" for bug in found.bugs]
+        told += [say("pic.factor", factor=found.factor)] if found.factor is not None else []
+        head, rows = say("check.hypothesis"), [("", text) for text in told]
+    else:
+        head = f"{bugs(found, say)} {say('doctor.not_so', **counted(found, say))}".strip()
+        rows = [(say("doctor.formula"), found.formula)]
+        for name in ("recorded", "right"):
+            value = getattr(found, name)
+            rows += [(say(f"doctor.{name}"), equation(found.what, value))] if value is not None else []
+        rows += [(say("doctor.why"), found.explanation)] if found.explanation else []
+        rows += [(say("doctor.first"), place(found.first, say))] if found.first else []
+        rows += [(say("doctor.lesson"), lesson(found))] if found.lesson is not None else []
+    body = "".join(
+        f'<tr><th scope="row">{escape(a)}</th><td>{escape(printable(b))}</td></tr>' for a, b in rows
+    )
+    return f'<div class="finding"><h3>{escape(printable(head))}</h3><table>{body}</table></div>'
+
+
+def as_dict(rows, folder, scene, say):
+    """The JSON: rows with all findings, and what was skipped."""
+    return {
+        "folder": str(folder),
+        "scene": scene,
+        "rows": [_row(row, say) for row in rows if row.state != SKIPPED],
+        "skipped": [row.name for row in rows if row.state == SKIPPED],
+    }
+
+
+def _row(row, say):
+    pictured = row.state == MAYBE
+    return {
+        "name": row.name,
+        "state": row.state,
+        "passed": list(row.passed),
+        "failed": list(row.failed),
+        "finding": finding(row, say),
+        "certainty": certainty(row, say),
+        "findings": [] if pictured else [found.as_dict() for found in row.more],
+        "hypotheses": [list(found.bugs) for found in row.more] if pictured else [],
+        "error": row.error or None,
+        "command": row.command or None,
+    }
