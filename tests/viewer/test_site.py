@@ -54,6 +54,8 @@ def test_solutions_are_on_the_pages_only_where_they_are_asked_for():
             assert (f"<summary>{Speaker(tag)('lesson.solution')}</summary>" in text) == solutions
             assert text.count('class="task"') == len(lesson(SMALL).tasks)
             assert "{{" not in text and ":::" not in text
+            for label in lesson(SMALL).formulas:
+                assert f'href="{frame.named("formulas", tag)}#{SMALL:02}-{label}"' in text
 
 
 def test_every_link_of_the_pages_leads_to_a_page_that_is_built():

@@ -1,5 +1,6 @@
 """A lesson as a page: its text, and beside it the places it speaks of, pictures and paths in 3D."""
 
+import re
 import shlex
 from html import escape
 
@@ -15,6 +16,7 @@ from viewer.offline import View, furniture
 from viewer.site.frame import HERE, framed, named
 from viewer.words import LANGUAGES, Speaker
 
+LABELLED = re.compile(r'<div class="formula" id="formula-([\w-]+)">')
 MOST_SAMPLES = 8  # of a pixel of the pictures
 
 
@@ -53,6 +55,7 @@ def _page(run, say, pictures, solutions):
         part if isinstance(part, str) else _task(it, part, say, solutions)
         for part in body(run, say.language, lambda moment: f"#place-{moment}")
     )
+    text = LABELLED.sub(lambda found: found[0] + _code(it, found[1], say), text)
     view, commands = View(say), {}
     for moment, at in it.moments.items():
         path = run.path(moment)
@@ -69,6 +72,12 @@ def _page(run, say, pictures, solutions):
     styles, scripts = furniture()
     own = (HERE / "lesson.js").read_text(encoding="utf-8")
     return framed(title, main, _stem(it), say.language, styles, f"{scripts}\n{own}", wide=True)
+
+
+def _code(it, label, say):
+    """The link from a formula to what computes it."""
+    href = f"{named('formulas', say.language)}#{it.number:02}-{label}"
+    return f'<a class="code" href="{href}" title="{escape(it.formulas[label].function)}">{escape(say("site.code"))}</a>'
 
 
 def _about(it, say):
