@@ -13,6 +13,7 @@ from viewer import app
 from viewer.comparing import maps, rival
 from viewer.comparing.comparer import beside, desk_of
 from viewer.comparing.twins import PixelTwin
+from viewer.pictured import serve_picture
 from viewer.recorded import serve_recording
 from viewer.session import Session
 
@@ -137,15 +138,37 @@ def test_a_log_has_no_picture_to_compare_with():
         rival.of_file("mine.jsonl")
 
 
-def test_two_recordings_are_opened_side_by_side(scene, tmp_path, monkeypatch):
+@pytest.fixture
+def opened(monkeypatch):
+    """The sessions that the viewer would have shown."""
+    sessions = []
+    monkeypatch.setattr(app, "_run", lambda session, *_: sessions.append(session))
+    return sessions
+
+
+def test_two_recordings_are_opened_side_by_side(scene, tmp_path, opened):
     for name, bug in (("right", None), ("wrong", "D10")):
         asked = replace(SETTINGS, bug=bug)
         tracer.record(scene, asked, tmp_path / name, "paths", steps=planted(asked))
-    sessions = []
-    monkeypatch.setattr(app, "_run", lambda session, *_: sessions.append(session))
     serve_recording(str(tmp_path / "right"), against=str(tmp_path / "wrong"))
-    assert sessions[0].recording is not None
-    assert desk_of(sessions[0]).rival.settings.bug == "D10" and beside(sessions[0]) is not None
+    assert opened[0].recording is not None
+    assert desk_of(opened[0]).rival.settings.bug == "D10" and beside(opened[0]) is not None
+
+
+def test_a_picture_is_opened_beside_what_it_is_of(pictures, opened, tmp_path):
+    file = tmp_path / "wrong.exr"
+    tracer.write(pictures[1], file, scene="cornell_unit")
+    serve_picture(str(file))
+    serve_picture(str(file), against="right")
+    assert [session.against for session in opened] == [str(file), "right"]
+    assert all(session.settings == pictures[1].settings for session in opened)
+    assert desk_of(opened[0]).picture.rgb.tobytes() == pictures[1].rgb.tobytes()
+
+
+def test_a_picture_that_does_not_say_what_it_is_of_is_refused(pictures, tmp_path):
+    tracer.write(pictures[1], tmp_path / "mine.png")
+    with pytest.raises(tracer.TracerError, match="castray view SCENE --compare"):
+        serve_picture(str(tmp_path / "mine.png"))
 
 
 @pytest.mark.slow

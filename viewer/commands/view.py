@@ -23,8 +23,8 @@ def view(
     ----------
     scene
         A scene file, the bare name of one that comes with castray (default: cornell_unit), a link from the
-        viewer's address bar, or a folder that castray render --record made (castray query names a place in
-        it: DIR#x=..&y=..&path=..).
+        viewer's address bar, a folder that castray render --record made (castray query names a place in it:
+        DIR#x=..&y=..&path=..), or an .exr that castray render made: it is compared with what it is of.
     lesson
         Open that lesson beside its scene, in place of a scene.
     port
@@ -36,12 +36,13 @@ def view(
         file (such as your own), or a recording's folder.
     """
     from viewer import app as viewer_app
+    from viewer.pictured import is_picture, serve_picture
     from viewer.recorded import is_recording, serve_recording
 
     if port is not None and not 0 <= port <= 65535:
         raise TracerError(f"port: {port} is not between 0 and 65535")
     if lesson is not None:
-        if scene is not None or options is not None:
+        if scene is not None or options is not None or compare is not None:
             raise TracerError("view: a lesson has its own scene and settings; leave out yours")
         viewer_app.serve_lesson(lesson, port, browser)
         return
@@ -53,6 +54,11 @@ def view(
         if options is not None:
             raise TracerError(f"{scene}: a recording has its own settings; leave out the path options")
         serve_recording(scene, port, browser, compare)
+        return
+    if is_picture(scene):
+        if options is not None:
+            raise TracerError(f"{scene}: a picture has its own settings; leave out the path options")
+        serve_picture(scene, port, browser, compare)
         return
     settings, _ = settings_and_steps(options)
     viewer_app.serve(scene_of(scene, options), settings, port, browser, against=compare)

@@ -1,0 +1,28 @@
+"""A picture of castray's in the viewer: the scene and the settings that its header names, traced again."""
+
+from pathlib import Path
+
+import tracer
+from tracer.settings import Settings, TracerError
+from viewer import app
+
+KINDS = (".exr", ".png", ".npy", ".hdr", ".pfm", ".jpg", ".jpeg")
+
+
+def is_picture(text):
+    """Whether a command line argument names a picture's file."""
+    return Path(text).suffix.lower() in KINDS
+
+
+def serve_picture(text, port=None, open_browser=True, against=None):
+    """Open the viewer on what a picture is of, beside the picture itself or what else is to be compared with.
+    Raises TracerError for a picture that does not say what it is of."""
+    notes = tracer.read(text).notes
+    try:
+        name, settings = notes["scene"], Settings(**notes["settings"])
+    except (KeyError, TypeError):
+        raise TracerError(
+            f"{text}: does not say of which scene it is, as an .exr of castray render does; "
+            f"castray view SCENE --compare {text} puts it beside its scene"
+        ) from None
+    app.serve(tracer.load(name), settings, port, open_browser, against=against or text)
