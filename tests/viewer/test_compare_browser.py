@@ -116,6 +116,10 @@ def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
     page.get_by_test_id("compare-go").click()
     page.locator(f"[data-testid=row-{mine}][data-now=true]").wait_for()
     assert int(page.get_by_test_id("compare-parting").get_attribute("data-step")) == mine
+    page.keyboard.press("End")
+    page.locator(f"[data-testid=row-{mine}]:not([data-now=true])").wait_for()
+    page.keyboard.press("d")
+    page.locator(f"[data-testid=row-{mine}][data-now=true]").wait_for()
     assert "parts" in page.get_by_test_id(f"mark-{mine}").get_attribute("class")
     assert "parts" in page.get_by_test_id(f"twin-mark-{its}").get_attribute("class")
     assert page.get_by_test_id("legend-twin").is_visible()

@@ -2,7 +2,7 @@
 
 from viewer.panels.panel import Panel
 
-KEYS = ("arrows", "paths", "ends", "space", "shift", "picked", "hits", "lesson", "question")
+KEYS = ("arrows", "paths", "ends", "space", "shift", "picked", "hits", "differs", "lesson", "question")
 
 TEMPLATE = """
 <div class="help" data-testid="help">
