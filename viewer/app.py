@@ -50,6 +50,27 @@ def serve(
     _run(session, port, open_browser, lesson, framed)
 
 
+def serve_learner(file, scene, settings, port=None, open_browser=True, against=None):
+    """Open the viewer on a learner's own tracer of a scene (a file or name), which runs whenever its file is
+    saved; castray's own picture stands there until the first run is done."""
+    from viewer.opening.learner import Watched
+
+    loaded = tracer.load(scene)
+    session = Session(loaded, settings, Scenes(loaded).find)
+    session.against = against or ""
+    session.shelf["watched"] = Watched(file, scene, settings)
+    session.stand(None)
+    _run(session, port, open_browser)
+
+
+def serve_given(given, port=None, open_browser=True, against=None):
+    """Open the viewer on the paths of another tracer."""
+    session = Session(given.scene, given.settings, Scenes(given.scene).find)
+    session.against = against or ""
+    session.give(given)
+    _run(session, port, open_browser)
+
+
 def serve_lesson(number, port=None, open_browser=True):
     """Open the viewer where a lesson begins, the lesson beside it."""
     start = links.of_moment(lesson(number).moments["start"])
@@ -93,18 +114,27 @@ def _run(session, port, open_browser, number=None, framed=False):
     server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
     server.state.trame__title = say("title")
     window, door = Window(server, session, say), Door(page(say("title")), framed)
-    calls = Calls(window).by_name
+    calls, watched = Calls(window).by_name, session.shelf.get("watched")
 
     def bind(web_server):
         web_server.app.middlewares.append(door.middleware)
         restrict(web_server, calls, window.whole_stage)
         serve_files(web_server, window)
 
+    def shown(given):
+        window.give(given)
+        if watched.runs == 1:
+            _show_findings(window)
+
     def ready(**_):
         window.loop = asyncio.get_running_loop()
         address = f"http://127.0.0.1:{server.port}/?key={door.key}"
         print(address, flush=True)
         window.paint()
+        if watched is not None:
+            watched.start(window.back, shown, lambda: window.show("given"))
+        if session.given is not None:
+            _show_findings(window)
         if number is not None:
             with server.state as state:
                 state.tab = "lesson"
@@ -120,8 +150,17 @@ def _run(session, port, open_browser, number=None, framed=False):
         pass
     finally:
         window.stop_painting()
+        if watched is not None:
+            watched.stop()
         session.close()
     print("castray: viewer closed", file=sys.stderr)
+
+
+def _show_findings(window):
+    """Open the doctor's tab where it has found something in what is given."""
+    if window.session.given.chart.diagnosis.findings:
+        window.state.tab = "doctor"
+        window.look("doctor")
 
 
 def _listen(server, port):

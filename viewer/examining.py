@@ -67,9 +67,17 @@ def examined(scene, settings, recording, stopped):
         stopped()
         few = fresh(few)
         diagnosis = confirmed(diagnosis, join(parts(scene, few, planted(few), pixels)))
-    diagnosis = diagnosis.explained_by(about)
-    causes = {finding.rule for finding in diagnosis.causes}
-    broken = {v.rule.id: _where(trace, v.outcome) for v in diagnosis.rules if v.rule.id in causes}
+    return charted(trace, diagnosis.explained_by(about))
+
+
+def charted(trace, diagnosis, elsewhere=None):
+    """The Chart of a diagnosis. elsewhere: {rule: the other Trace that it was tested on}."""
+    causes, others = {finding.rule for finding in diagnosis.causes}, elsewhere or {}
+    broken = {
+        v.rule.id: _where(others.get(v.rule.id, trace), v.outcome)
+        for v in diagnosis.rules
+        if v.rule.id in causes
+    }
     return Chart(diagnosis=_light(diagnosis), paths=trace.size, broken=broken)
 
 
@@ -104,7 +112,7 @@ class Examiner:
     def examine(self):
         """Hold the laws against paths of the picture."""
         session, chart = self.session, self.chart
-        if chart.busy:
+        if chart.busy or session.given:  # what is given was judged when it was read
             return
         chart.busy, chart.error = True, None
         scene, settings, recording = session.scene, session.settings, session.recording
@@ -132,7 +140,9 @@ class Examiner:
         if first is None:
             raise TracerError(f"doctor: {finding.rule} is seen in many events together, not in one")
         self.chart.now = index
-        self.window.go_to((first["x"], first["y"], first["sample"], first["step"]))
+        given = self.session.given
+        place = given.place(first) if given else (first["x"], first["y"], first["sample"], first["step"])
+        self.window.go_to(place)
         self.window.show("doctor")
 
     def where(self, index):

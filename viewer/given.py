@@ -26,15 +26,17 @@ def recorded_trace(path, most=None):
     return join(read_parts(path, numbers=numbers))
 
 
-def logged_trace(file, scene):
-    """The Trace of a log; what was found out in reading it goes to standard error. Raises TracerError."""
+def logged_trace(file, scene, name=None):
+    """The Trace of a log, told of under a name; what was found out in reading it goes to standard error.
+    Raises TracerError."""
     from tracer.trace.jsonl import read_log
 
     if scene is None:
         raise TracerError(f"{file}: give --scene, the scene that this log is of")
+    name = name or file
     found = read_log(file, tracer.load(scene))
     more = found.read.mistaken - len(found.mistakes)
     said = [*map(str, found.mistakes), *([f"... and {more} more mistakes"] if more else []), *found.notes]
     for line in said:
-        print(f"{file}: {line}", file=sys.stderr)
+        print(f"{name}: {line}", file=sys.stderr)
     return found.trace

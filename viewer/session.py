@@ -16,8 +16,8 @@ from viewer.numerals import luminance
 from viewer.replay import inspect_command
 
 KEPT = (
-    "scene", "settings", "spp_done", "picture", "recording", "overlay", "record", "cursor", "history",
-    "supposing",
+    "scene", "settings", "spp_done", "picture", "recording", "given", "overlay", "record", "cursor",
+    "history", "supposing",
 )  # fmt: skip
 
 
@@ -35,7 +35,8 @@ class Session:
 
     load: from the name of a scene a link may ask for to that scene; TracerError where it may not.
     shelf: what panels keep whatever the scene, by their names.
-    recording: the Folder that scene and settings come from, if there is one.
+    recording: the Folder that scene and settings come from, if there is one. given: the paths of another
+    tracer (viewer.opening.given.Given), in place of castray's own.
     """
 
     def __init__(self, scene, settings, load, recording=None):
@@ -50,7 +51,7 @@ class Session:
         self.close()
         self.scene, self.settings = scene, settings.at_size_of(scene)
         self.spp_done, self.picture = 0, None
-        self.recording, self.overlay = None, None
+        self.recording, self.given, self.overlay = None, None, None
         self.record, self.cursor, self.history = None, None, History()
         self.supposing = None
 
@@ -61,8 +62,12 @@ class Session:
         self.desk = {}
 
     def pick(self, x, y):
-        """Re-trace a pixel with the recorder on and stand at the start of its brightest path."""
-        self.record = tracer.inspect(self.scene, self.settings, x, y, steps=planted(self.settings))
+        """Re-trace a pixel with the recorder on, or take what is given of it, and stand at the start of its
+        brightest path."""
+        if self.given is not None:
+            self.record = self.given.record(x, y)
+        else:
+            self.record = tracer.inspect(self.scene, self.settings, x, y, steps=planted(self.settings))
         lengths = tuple(len(path.events) for path in self.record.paths)
         self.cursor = Cursor(x, y, lengths, brightest(self.record))
         self.history.add((x, y))
@@ -101,6 +106,25 @@ class Session:
             self.pick(min(before.x, self.settings.width - 1), min(before.y, self.settings.height - 1))
         self.cursor = self.cursor.on(before.path).at(before.event)
 
+    def give(self, given):
+        """Turn to the paths of another tracer, and stay as near as can be to the place; where nothing was
+        given before, to where they are to be opened."""
+        first, before, history = self.given is None, self.cursor, self.history
+        with self._unchanged_by_errors():
+            self.adopt(given.scene, given.settings)
+            self.given, self.history, self.desk["doctor"] = given, history, given.chart
+            if first or not self._stand_near(before):
+                self.stand(given.start)
+
+    def _stand_near(self, place):
+        """Stand at a cursor's place or near it; False where nothing was recorded."""
+        try:
+            self.pick(min(place.x, self.settings.width - 1), min(place.y, self.settings.height - 1))
+        except tracer.TracerError:
+            return False
+        self.cursor = self.cursor.on(place.path).at(place.event)
+        return True
+
     @contextmanager
     def _unchanged_by_errors(self):
         """What is KEPT is again as it was where the block raises."""
@@ -130,6 +154,10 @@ class Session:
         if not what:
             self.supposing = None
             return
+        if self.given is not None:
+            raise tracer.TracerError(
+                f"what_if: is for castray's own paths, not for those of {self.given.name}"
+            )
         c, steps = self.cursor, planted(self.settings)
         record = supposed(self.scene, self.settings, c.x, c.y, self.path.sample, what, steps)
         self.supposing = Supposing(self.path, dict(what), record.paths[0])
@@ -176,14 +204,18 @@ class Session:
 
     @property
     def command(self):
-        """`castray inspect` of the path, in words."""
+        """`castray inspect` of the path, in words; of what is given the command that judges it."""
+        if self.given is not None:
+            return self.given.command
         place = self.cursor.x, self.cursor.y, self.path.sample, self.cursor.event
         changes = self.scene.definition.changes
         return inspect_command(self.scene.name, self.settings, place, changes, self.suppositions)
 
     @property
     def why_command(self):
-        """`castray inspect` that says why the pixel is what it is."""
+        """`castray inspect` that says why the pixel is what it is; of what is given as `command`."""
+        if self.given is not None:
+            return self.given.command
         place = self.cursor.x, self.cursor.y, None, None
         changes = self.scene.definition.changes
         return inspect_command(self.scene.name, self.settings, place, changes) + " --why"

@@ -193,6 +193,15 @@ class Window:
         self.paint()
         self.refresh("picture")
 
+    def give(self, given):
+        """Show the paths of another tracer in place of castray's own."""
+        self.pause()
+        self.session.give(given)
+        self.stage.refit(self.session.scene)
+        self.state.update({"touched": True, "message": ""})
+        self.paint()
+        self.refresh("picture")
+
     def furnish(self):
         """Show the session's scene in 3D in place of another."""
         self.stage.furnish(self.session.scene)
@@ -226,6 +235,11 @@ class Window:
         size = 12 * settings.width * settings.height
         if len(self.state.rgb) != size:  # else the picture before stays until there is a new one
             self.state.rgb = bytes(size)
+        if self.session.given:
+            self.painter = None
+            self._begin()
+            self._painted(self.session.given.picture, settings.spp)
+            return
         self._tell_progress(0, 1)
         painter = Painter(self.session.scene, settings)
 

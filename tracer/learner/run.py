@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +16,13 @@ from tracer.scene_file.load import load
 from tracer.settings import Settings, TracerError
 from tracer.trace.trace import Table, Trace
 
+ASKED_EVERY = 0.2  # seconds
 
-def run(path, scene, settings, seconds=300.0, quiet=False):
+
+def run(path, scene, settings, seconds=300.0, quiet=False, stopped=lambda: None):
     """The Traces of a learner's cast_ray on a scene (a file or name): of all light samples, and of those only
-    that bring something (see build). quiet: what the file prints goes nowhere.
+    that bring something (see build). quiet: what the file prints goes nowhere. stopped(): asked now and then;
+    raises to give up.
 
     Raises TracerError with the learner's file and line where it fails, or says what it exceeded.
     """
@@ -39,7 +43,7 @@ def run(path, scene, settings, seconds=300.0, quiet=False):
         }
         asked = Path(folder) / "request.json"
         asked.write_text(json.dumps(request), encoding="utf-8")
-        ended = _ended(asked, seconds, path, quiet)
+        ended = _ended(asked, seconds, path, quiet, stopped)
         if not answer.is_file():
             raise TracerError(
                 f"{path.name}: its process ended with code {ended}; "
@@ -53,23 +57,26 @@ def run(path, scene, settings, seconds=300.0, quiet=False):
         return tuple(_read(name, ready, found) for name in names)
 
 
-def _ended(asked, seconds, path, quiet):
+def _ended(asked, seconds, path, quiet, stopped):
     """The code with which the child ended."""
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    try:
-        return subprocess.run(
-            [sys.executable, "-m", child.__name__, str(asked)],
-            timeout=seconds,
-            env=environment,
-            check=False,
-            stdin=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL if quiet else None,
-        ).returncode
-    except subprocess.TimeoutExpired:
-        raise TracerError(
-            f"{path.name}: not done after {seconds:g} s; does a loop never end? "
-            "Otherwise give it fewer paths (--size, --spp) or more time (--seconds)"
-        ) from None
+    words = [sys.executable, "-m", child.__name__, str(asked)]
+    until = time.monotonic() + seconds
+    told = subprocess.DEVNULL if quiet else None
+    with subprocess.Popen(words, env=environment, stdin=subprocess.DEVNULL, stderr=told) as process:
+        try:
+            while time.monotonic() < until:
+                stopped()
+                try:
+                    return process.wait(min(ASKED_EVERY, max(until - time.monotonic(), 0.0)))
+                except subprocess.TimeoutExpired:
+                    continue
+        finally:
+            process.kill()
+    raise TracerError(
+        f"{path.name}: not done after {seconds:g} s; does a loop never end? "
+        "Otherwise give it fewer paths (--size, --spp) or more time (--seconds)"
+    )
 
 
 def _read(name, scene, settings):

@@ -120,6 +120,12 @@ class Trace:
         return replace(self, paths={name: c[..., begin:end] for name, c in self.paths.items()}, tables=tables)
 
 
+def replaced_steps(trace, steps):
+    """The trace with its events in other places of their paths: steps is kind -> (E,)."""
+    tables = {name: replace(table, step=steps[name]) for name, table in trace.tables.items()}
+    return replace(trace, tables=tables)
+
+
 def join(traces):
     """One trace of several of the same scene and settings, their paths one after the other."""
     traces = list(traces)

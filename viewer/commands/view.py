@@ -1,16 +1,19 @@
 """The command `castray view`."""
 
+from dataclasses import fields
+from pathlib import Path
 from typing import Annotated
 
 from tracer.settings import TracerError
 from viewer.link import is_link
-from viewer.options import PathOptions, Whole, scene_of, settings_and_steps
+from viewer.options import CheckOptions, PathOptions, Whole, scene_of, settings_and_steps
 
 
 def view(
-    scene: str | None = None,
+    what: str | None = None,
     /,
     *,
+    scene: str | None = None,
     lesson: Annotated[int | None, Whole] = None,
     port: Annotated[int | None, Whole] = None,
     browser: bool = True,
@@ -21,10 +24,14 @@ def view(
 
     Parameters
     ----------
-    scene
+    what
         A scene file, the bare name of one that comes with castray (default: cornell_unit), a link from the
         viewer's address bar, a folder that castray render --record made (castray query names a place in it:
-        DIR#x=..&y=..&path=..), or an .exr that castray render made: it is compared with what it is of.
+        DIR#x=..&y=..&path=..), or an .exr that castray render made: it is compared with what it is of. Or
+        your own tracer (FILE.py, as of castray check: it runs again whenever you save it) or the log of one
+        (FILE.jsonl), with --scene.
+    scene
+        The scene that your own tracer or log is of (of a tracer, default: cornell).
     lesson
         Open that lesson beside its scene, in place of a scene.
     port
@@ -42,23 +49,57 @@ def view(
     if port is not None and not 0 <= port <= 65535:
         raise TracerError(f"port: {port} is not between 0 and 65535")
     if lesson is not None:
-        if scene is not None or options is not None or compare is not None:
+        if any(said is not None for said in (what, options, compare, scene)):
             raise TracerError("view: a lesson has its own scene and settings; leave out yours")
         viewer_app.serve_lesson(lesson, port, browser)
         return
-    scene = "cornell_unit" if scene is None else scene
-    if is_link(scene):
-        viewer_app.serve_link(scene, port, browser, compare)
+    what = "cornell_unit" if what is None else what
+    if what.lower().endswith((".py", ".jsonl")):
+        _serve_own(what, scene, port, browser, compare, options)
         return
-    if is_recording(scene):
-        if options is not None:
-            raise TracerError(f"{scene}: a recording has its own settings; leave out the path options")
-        serve_recording(scene, port, browser, compare)
+    if scene is not None:
+        raise TracerError(f"scene: is for your own tracer, FILE.py, or its log, FILE.jsonl; {what} is none")
+    if is_link(what):
+        viewer_app.serve_link(what, port, browser, compare)
         return
-    if is_picture(scene):
+    if is_recording(what):
         if options is not None:
-            raise TracerError(f"{scene}: a picture has its own settings; leave out the path options")
-        serve_picture(scene, port, browser, compare)
+            raise TracerError(f"{what}: a recording has its own settings; leave out the path options")
+        serve_recording(what, port, browser, compare)
+        return
+    if is_picture(what):
+        if options is not None:
+            raise TracerError(f"{what}: a picture has its own settings; leave out the path options")
+        serve_picture(what, port, browser, compare)
         return
     settings, _ = settings_and_steps(options)
-    viewer_app.serve(scene_of(scene, options), settings, port, browser, against=compare)
+    viewer_app.serve(scene_of(what, options), settings, port, browser, against=compare)
+
+
+def _serve_own(file, scene, port, browser, compare, options):
+    """Open the viewer on a tracer in Python or on a log."""
+    from viewer import app as viewer_app
+    from viewer.checking.learner import settings_of
+    from viewer.comparing.rival import known
+    from viewer.opening.given import of_log
+
+    if not Path(file).is_file():
+        raise TracerError(f"{file}: there is no such file")
+    if compare is not None and not known(compare):
+        raise TracerError(f"compare: {file} is compared with right, or with a bug of the zoo")
+    if file.lower().endswith(".jsonl"):
+        if options is not None:
+            raise TracerError(f"{file}: a log has its own settings; leave out the path options")
+        viewer_app.serve_given(of_log(file, scene), port, browser, compare)
+        return
+    settings = settings_of(_of_own(file, options))
+    viewer_app.serve_learner(file, scene or "cornell", settings, port, browser, compare)
+
+
+def _of_own(file, options):
+    """The path options, if they leave to the file what its own code decides. Raises TracerError."""
+    left = {f.name for f in fields(CheckOptions)}
+    for f in fields(PathOptions) if options is not None else ():
+        if f.name not in left and getattr(options, f.name) != f.default:
+            raise TracerError(f"{f.name}: is decided by the code of {file}; leave it out")
+    return options

@@ -49,7 +49,7 @@ def desk_of(session):
 def beside(session):
     """The twin Beside the selected path; None where there is none."""
     desk = desk_of(session)
-    if desk is None or not desk.rival.traced:
+    if desk is None or not desk.rival.traced or session.given:
         return None
     pixel = session.cursor.x, session.cursor.y
     if desk.pixel != pixel:
@@ -114,7 +114,7 @@ class Comparer:
     def search(self):
         """Find where paths from all over the picture part."""
         desk, session = self.desk, self.session
-        if desk is None or not desk.rival.traced:
+        if desk is None or not desk.rival.traced or session.given:
             raise TracerError("compare: there is nothing whose paths could be traced again")
         if desk.searching:
             return

@@ -129,7 +129,9 @@ class Finder:
 
     def _with_survey(self, then):
         """Do what needs the survey, now or when it is there."""
-        desk = self.desk
+        desk, given = self.desk, self.session.given
+        if given is not None:
+            raise TracerError(f"find: asks castray's own paths, not those of {given.name}")
         if desk.survey is None and self.session.recording is not None:
             desk.survey = survey.of_recording(self.session.recording)
             self._look_over(desk)

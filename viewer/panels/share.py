@@ -24,7 +24,9 @@ def show(session, say):
         for name in FILES
         if name != "doctor.html" or session.recording is None or session.recording.kinds
     ]
-    if session.recording is not None:
+    if session.given is not None:
+        command = f"castray view {session.given.words}"
+    elif session.recording is not None:
         command = of_recording(session.recording.path, (c.x, c.y, session.path.sample, c.event))
     else:
         command = opening(session.link)

@@ -2,7 +2,7 @@
 
 import re
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from json import dumps
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ class Moment:
     scene: Any
     settings: tracer.Settings
     recording: Any
+    given: Any  # paths of another tracer, in place of castray's own
     picture: Any  # None until some of it is rendered
     record: Any
     cursor: Any
@@ -39,6 +40,7 @@ class Moment:
             s.scene,
             s.settings,
             s.recording,
+            s.given,
             s.picture,
             s.record,
             c,
@@ -72,7 +74,9 @@ def _path(moment):
     """The JSON of `castray inspect --sample`, of the path as it is supposed to be where it is."""
     m, c = moment, moment.cursor
     sample, steps = m.record.paths[c.path].sample, planted(m.settings)
-    if m.suppositions:
+    if m.given is not None:
+        record = replace(m.record, paths=(m.record.paths[c.path],))
+    elif m.suppositions:
         record = supposed(m.scene, m.settings, c.x, c.y, sample, m.suppositions, steps)
     else:
         record = tracer.inspect(m.scene, m.settings, c.x, c.y, sample, steps)
@@ -88,6 +92,8 @@ def _doctor(moment):
     m, chart = moment, moment.chart
     if chart is None or chart.diagnosis is None:
         chart = examined(m.scene, m.settings, m.recording, lambda: None)
+    if m.given is not None:
+        return report(chart.diagnosis, m.scene, m.settings, chart.paths, m.say, again=False).encode("utf-8")
     folder = m.recording and m.recording.path
     diagnosis = replayed(chart.diagnosis, m.scene, m.settings, folder)
     return report(diagnosis, m.scene, m.settings, chart.paths, m.say).encode("utf-8")

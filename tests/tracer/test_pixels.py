@@ -1,0 +1,58 @@
+"""A pixel of a trace is what `tracer.inspect` gives of it, and its picture what `tracer.render` gives."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import tracer
+from tracer.trace import gather, pixels
+
+SETTINGS = tracer.Settings(width=8, height=8, spp=3, max_depth=5)
+
+
+@pytest.fixture(scope="module", params=["cornell_unit", "coloured_glass"])
+def traced(request):
+    """A scene and the trace of a small picture of it."""
+    scene = tracer.load(request.param)
+    return scene, gather(scene, SETTINGS)
+
+
+def test_a_pixel_of_a_trace_has_the_paths_that_inspect_traces_again(traced):
+    scene, trace = traced
+    for x, y in ((2, 5), (6, 3)):
+        found, again = pixels.pixel(trace, x, y), tracer.inspect(scene, SETTINGS, x, y)
+        assert found.as_dict(scene) == again.as_dict(scene)
+
+
+def test_the_picture_of_a_trace_is_what_render_gives_up_to_rounding(traced):
+    scene, trace = traced
+    found, rendered = pixels.picture(trace), tracer.render(scene, SETTINGS)
+    assert np.allclose(found.rgb, rendered.rgb, rtol=1e-6)
+    assert np.allclose(found.variance, rendered.variance, rtol=1e-5, atol=1e-9)
+
+
+def test_events_are_numbered_without_gaps_whatever_was_left_out(traced):
+    _, trace = traced
+    tables = dict(trace.tables)
+    tables["light"] = tables["light"].take(slice(0, 0))
+    sparse = replace(trace, tables=tables)
+    dense = pixels.without_gaps(sparse)
+    for path in pixels.pixel(dense, 2, 5).paths:
+        assert [event.step for event in path.events] == list(range(len(path.events)))
+        assert "light" not in {event.kind.name for event in path.events}
+
+
+def test_what_was_not_recorded_is_blank(traced):
+    _, trace = traced
+    hits = trace.tables["hit"]
+    less = {name: column for name, column in hits.columns.items() if name not in ("pdf_light", "primitive")}
+    table = replace(hits, columns=less)
+    event = pixels.pixel(replace(trace, tables=trace.tables | {"hit": table}), 2, 5).paths[0].events[1]
+    assert np.isnan(event.values["pdf_light"]) and event.values["primitive"] == -1
+
+
+def test_a_pixel_without_a_path_is_refused(traced):
+    _, trace = traced
+    with pytest.raises(tracer.TracerError, match="pixel 2 5: no path of it was recorded"):
+        pixels.pixel(trace.take(trace.paths["y"] != 5), 2, 5)

@@ -1,0 +1,71 @@
+"""Paths of another tracer as the viewer shows them: read from a log, or made by a learner's own program."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import tracer
+from lessons.course import about
+from tracer.trace import Trace, pixels
+from viewer.examining import Chart, charted
+from viewer.given import logged_trace
+
+
+@dataclass(frozen=True)
+class Given:
+    """name: of the file; trace: the paths, without gaps; chart: what the doctor says of them; judge: the
+    command that judges them in a terminal, words: what it and castray view are told."""
+
+    name: str
+    trace: Trace
+    chart: Chart
+    judge: str
+    words: str
+
+    @property
+    def command(self):
+        """What judges them in a terminal."""
+        return f"castray {self.judge} {self.words}"
+
+    @property
+    def scene(self):
+        """The scene that they are of."""
+        return self.trace.scene
+
+    @property
+    def settings(self):
+        """Their settings, as far as they are known."""
+        return self.trace.settings
+
+    @cached_property
+    def picture(self):
+        """What they make together."""
+        return pixels.picture(self.trace)
+
+    def record(self, x, y):
+        """The PixelRecord of a pixel. Raises TracerError where no path was recorded."""
+        return pixels.pixel(self.trace, x, y)
+
+    @property
+    def start(self):
+        """(x, y, path, event) to open at: the event that proves the first finding, else the first path."""
+        for finding in self.chart.diagnosis.causes:
+            first: Any = finding.first
+            if first is not None and first.get("step") is not None:
+                return self.place(first)
+        return int(self.trace.paths["x"][0]), int(self.trace.paths["y"][0]), 0, 0
+
+    def place(self, first):
+        """(x, y, path, event) of what a finding names: a log may lack some samples."""
+        here = (self.trace.paths["x"] == first["x"]) & (self.trace.paths["y"] == first["y"])
+        path = self.trace.paths["sample"][here].tolist().index(first["sample"])
+        return first["x"], first["y"], path, first["step"]
+
+
+def of_log(file, scene, name=None):
+    """The Given in a log of a scene (a file or name), shown under a name. Raises TracerError."""
+    trace = pixels.without_gaps(logged_trace(str(file), scene, name))
+    diagnosis = tracer.examine(trace).explained_by(about)
+    name = name or str(file)
+    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", f"{name} --scene {scene}")
