@@ -71,13 +71,13 @@ class Reader:
         return course_of(self.session)
 
     def open(self, number, stay=False):
-        """Open a lesson, and the viewer where it begins unless the reader wants to stay."""
+        """Open a lesson, and the viewer where it begins; stay: a link leads there, or nobody wants to go."""
         if type(number) is not int:
             raise TracerError(f"lesson: {str(number)[:20]!r} is not a whole number")
         it = lesson(number)
         if stay is not True:
             self.window.open(of_moment(it.moments["start"]))
-            self.window.state.touched = True
+        self.window.state.touched = True
         self.course.open = reading = Reading(Run(it))
 
         def done(texts):

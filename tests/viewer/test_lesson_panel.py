@@ -100,6 +100,14 @@ def test_everything_is_said_in_the_other_language_at_once(page):
     assert page.locator("[data-testid^=lesson-]").count() == len(lessons())
     assert page.get_by_test_id("lesson-4").locator(".ticks").inner_text() == "✓···"
     page.get_by_test_id("language").select_option("en")
+    before = link(page)
+    page.get_by_test_id("lesson-2").click()
+    read(page, 2)
+    page.locator("[data-link^='scene=furnace']").wait_for()
+    page.wait_for_url("**/*scene=furnace*")
+    page.go_back()  # to where the reader came from
+    page.locator(f"[data-link='{before}']").wait_for()
+    page.get_by_test_id("lesson-list").click()
     page.get_by_test_id("lesson-4").filter(has_text=FOUR.words["en"].title).click()
     read(page, 4)
 

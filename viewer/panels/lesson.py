@@ -11,9 +11,9 @@ TEMPLATE = """
 <div class="lesson" data-testid="lesson" :data-number="lesson.number">
   <p v-if="lesson.unkept" class="warning" data-testid="lesson-unkept">{{ w.lesson_unkept }}</p>
   <template v-if="lesson.number === null"><p>{{ w.lesson_intro }}</p>
-    <ol class="course" :aria-label="w.lesson_list"><li v-for="l in lesson.rows" :key="l.number"><button :data-testid="'lesson-' + l.number" @click="trigger('lesson_open', [l.number])">
+    <ol class="course" :aria-label="w.lesson_list"><li v-for="l in lesson.rows" :key="l.number"><a :href="l.start" :data-testid="'lesson-' + l.number" @click="trigger('lesson_open', [l.number, true])">
       <span class="number dim">{{ l.label }}</span><span class="grow">{{ l.title }}</span><span class="dim">{{ l.time }}</span>
-      <span class="ticks" :class="{good: l.done}" role="img" :title="l.solved" :aria-label="l.solved">{{ l.ticks }}</span></button></li></ol></template>
+      <span class="ticks" :class="{good: l.done}" role="img" :title="l.solved" :aria-label="l.solved">{{ l.ticks }}</span></a></li></ol></template>
   <castray-reading v-else :key="lesson.number" :number="lesson.number" :link="link">
     <div class="between"><button data-testid="lesson-list" @click="trigger('lesson_close')">{{ w.lesson_list }}</button>
       <span class="dim" data-testid="lesson-about">{{ lesson.about }}</span></div>
@@ -32,7 +32,7 @@ TEMPLATE = """
           <button v-if="part.tried" :data-testid="'show-' + part.id" @click="trigger('lesson_solution', [part.id])">{{ w.lesson_show }}</button></div>
       </section></template>
     <p v-for="line in lesson.foot" :key="line" class="dim">{{ line }}</p>
-    <button v-if="lesson.next" data-testid="lesson-next" @click="trigger('lesson_open', [lesson.next.number])">{{ lesson.next.title }}</button>
+    <a v-if="lesson.next" :href="lesson.next.start" data-testid="lesson-next" @click="trigger('lesson_open', [lesson.next.number, true])">{{ lesson.next.title }}</a>
   </castray-reading>
 </div>
 """
@@ -63,6 +63,7 @@ def _row(it, progress, say):
     solved = progress.solved(it.number)
     return {
         "number": it.number,
+        "start": address(it.moments["start"]),
         "label": f"{it.number:02}",
         "title": it.words[say.language].title,
         "time": say("lesson.minutes", n=it.minutes),
@@ -148,7 +149,8 @@ def _next(number, say):
     if later is None:
         return None
     head = say("lesson.head", number=later.number, title=later.words[say.language].title)
-    return {"number": later.number, "title": say("lesson.next", title=head)}
+    start = address(later.moments["start"])
+    return {"number": later.number, "start": start, "title": say("lesson.next", title=head)}
 
 
 PANEL = Panel("lesson", "tab", "picture", 80, TEMPLATE, show, calls)
