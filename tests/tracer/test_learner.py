@@ -10,7 +10,8 @@ from suite import castray
 import tracer
 from tracer.learner import child, starter
 from tracer.learner.value import Vector, dot, known, named
-from viewer.checking.learner import settings_of, together
+from viewer.checking.learner import judged as held
+from viewer.checking.learner import settings_of
 
 TEXT = Path(starter.__file__).read_text(encoding="utf-8")
 
@@ -32,7 +33,7 @@ QUICK = ("E01",)
 def judged(path, **more):
     settings = settings_of(None).as_dict() | {"width": 10, "height": 10, "spp": 6} | more
     request = {"file": str(path), "scene": "cornell", "settings": settings}
-    return together(*(tracer.examine(trace) for trace in child.run(request)))
+    return held(*child.run(request))
 
 
 def written(tmp_path, text):
@@ -162,3 +163,16 @@ def test_the_command_writes_a_starter_and_judges_it(tmp_path):
 def test_a_scene_that_it_cannot_be_given_is_refused_in_one_line(tmp_path, scene):
     ran = castray("check", written(tmp_path, TEXT), "--scene", scene, "--size", 4, 4, cwd=tmp_path)
     assert ran.returncode == 2 and scene in ran.stderr and len(ran.stderr.splitlines()) == 1
+
+
+def test_each_law_is_held_once(tmp_path, monkeypatch):
+    asked, examine = [], tracer.examine
+
+    def counted(trace, only=None):
+        diagnosis = examine(trace, only)
+        asked.extend(v.rule.id for v in diagnosis.rules if v.state != "not_testable")
+        return diagnosis
+
+    monkeypatch.setattr(tracer, "examine", counted)
+    judged(written(tmp_path, TEXT), width=4, height=4, spp=2)
+    assert asked and len(asked) == len(set(asked))

@@ -119,19 +119,20 @@ class Diagnosis:
         return {"findings": [f.as_dict() for f in self.findings], "rules": rules}
 
 
-def examine(trace):
+def examine(trace, only=None):
     """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked.
 
-    Memory beside the trace is bounded but for what distributions need: events are judged a range of paths
+    only: ids of laws, to hold these alone. Memory beside the trace is bounded but for what distributions need: events are judged a range of paths
     at a time.
     """
-    single, whole = [_Judged(rule) for rule in LAWS], Evidence(trace)
+    single = [_Judged(rule) for rule in LAWS if only is None or rule.id in only]
+    whole = Evidence(trace)
     for begin, end in _ranges(trace):
         evidence = whole if end - begin == trace.size else Evidence(trace.span(begin, end))
         first = {kind: np.searchsorted(table.path, begin) for kind, table in trace.tables.items()}
         for judged in single:
             judged.add(applied(judged.rule, evidence), evidence, first.get(judged.rule.kind, begin))
-    many = statistics.judged(whole)
+    many = statistics.judged(whole, only)
     findings = [judged.finding for judged in single if judged.finding is not None]
     findings += [_finding(whole, verdict) for verdict in many if verdict.state == FIRED]
     return Diagnosis(ranked(findings), (*(judged.verdict for judged in single), *many))

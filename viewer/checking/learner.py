@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 import tracer
+from tracer.doctor.diagnosis import Diagnosis, ranked
+from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
 from viewer.options import CheckOptions, settings_and_steps
 
@@ -23,20 +25,16 @@ def examined(file, scene, options, seconds, quiet=False):
     """The Diagnosis of a learner's file, and its Trace. quiet: what it prints goes nowhere. Raises
     TracerError."""
     traces = run(file, scene, settings_of(options), seconds, quiet)
-    return together(*(tracer.examine(trace) for trace in traces)), traces[0]
+    return judged(*traces), traces[0]
 
 
-def together(first, second):
-    """One diagnosis of two: what the first could not test is what the second says. The commands that would
-    replay castray's own paths are left out."""
-    open_ = {verdict.rule.id for verdict in first.rules if verdict.state == "not_testable"}
-    later = {verdict.rule.id: verdict for verdict in second.rules}
-    rules = tuple(later[v.rule.id] if v.rule.id in open_ else v for v in first.rules)
-    more = [f for f in second.findings if f.rule in open_]
-    seen = [f for f in first.findings if f.p is None]
-    means = [f for f in first.findings if f.p is not None]
-    if more:  # what is off on average is so because of them
-        cause = next((f.rule for f in (*seen, *more) if f.follows is None), None)
-        means = [replace(f, follows=cause, bug=None, alike=()) for f in means]
-    findings = tuple(replace(f, command=None) for f in (*seen, *more, *means))
-    return replace(first, findings=findings, rules=rules)
+def judged(whole, bright):
+    """One diagnosis of a learner's two traces: what that of all light samples cannot test is asked of that of
+    the bright ones, so that no law is held twice. The commands that would replay castray's own paths are left
+    out."""
+    first = tracer.examine(whole)
+    later = tracer.examine(bright, {v.rule.id for v in first.rules if v.state == NOT_TESTABLE})
+    rules = {v.rule.id: v for v in (*first.rules, *later.rules)}
+    order = list(rules)
+    found = sorted((*first.findings, *later.findings), key=lambda f: order.index(f.rule))
+    return Diagnosis(ranked([replace(f, command=None) for f in found]), tuple(rules.values()))
