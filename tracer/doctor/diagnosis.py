@@ -122,8 +122,8 @@ class Diagnosis:
 def examine(trace, only=None):
     """Hold the laws of light transport against a Trace; the Diagnosis. What made the trace is not asked.
 
-    only: ids of laws, to hold these alone. Memory beside the trace is bounded but for what distributions need: events are judged a range of paths
-    at a time.
+    only: ids of laws, to hold these alone. Memory beside the trace is bounded but for what distributions
+    need: events are judged a range of paths at a time.
     """
     single = [_Judged(rule) for rule in LAWS if only is None or rule.id in only]
     whole = Evidence(trace)
