@@ -84,7 +84,7 @@ def test_the_wheel_holds_packages_scenes_and_static_files_but_no_tests(wheel):
         kept = {
             p
             for p in (ROOT / folder).rglob("*")
-            if p.suffix in (".py", ".h", ".toml", ".js", ".css", ".md", ".ply", ".obj", ".png")
+            if p.suffix in (".py", ".h", ".toml", ".js", ".css", ".md", ".ply", ".obj", ".png", ".glsl")
         }
         assert {path.relative_to(ROOT).as_posix() for path in kept} <= set(names)
 

@@ -28,6 +28,7 @@ class Picture:
     rays: int
     dropped: int  # samples that were not finite and count as 0
     complete: bool  # False if it was stopped
+    engine: str = "numpy"  # which traced it
 
     @property
     def paths(self):
@@ -40,30 +41,41 @@ class Picture:
         return 1.0 - self.paths / (self.samples.size * self.settings.spp)
 
     @classmethod
-    def of(cls, sheet, settings, seconds, rays, dropped, complete):
+    def of(cls, sheet, settings, seconds, rays, dropped, complete, engine="numpy"):
         """The picture on a Film."""
         width, height = settings.width, settings.height
         rgb, variance = (
             np.ascontiguousarray(a.T).reshape(height, width, 3) for a in (sheet.mean(), sheet.variance())
         )
         samples = sheet.samples.reshape(height, width)
-        return cls(rgb, variance, samples, settings, seconds, rays, dropped, complete)
+        return cls(rgb, variance, samples, settings, seconds, rays, dropped, complete, engine)
 
 
-def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=None, adaptive="off"):
+def render(
+    scene,
+    settings,
+    progress=None,
+    workers=1,
+    steps=RIGHT,
+    until_error=None,
+    adaptive="off",
+    engine="numpy",
+):
     """Render `scene`.
 
     progress: called as progress(paths done, paths in all). workers: most processes to use; more than one
     only when the work is worth their start, and the picture is the same bit for bit. steps: the named steps
     of the loop; settings.bug asks for those of `lessons.zoo.planted`. until_error: stop a tile when its root
     mean of se^2 / (mean^2 + 0.01) is that small; settings.spp is then the most. adaptive: "mse" or "relmse"
-    spends settings.spp, on average, where that error is (see engine/plan.py). Ctrl-C returns the picture so
-    far with complete = False. Raises TracerError.
+    spends settings.spp, on average, where that error is (see engine/plan.py). engine: "numpy", or "gl", which
+    is one process and gives the same picture but for rounding. Ctrl-C returns the picture so far with
+    complete = False. Raises TracerError.
     """
     settings = asked(scene, settings, steps)
     pixels = settings.width * settings.height
     sheet = film.Film(pixels, settings.parts)
-    job = partial(waves.trace, scene.at(settings), settings, steps)
+    job = tracing(engine, scene, settings, steps)
+    workers = 1 if engine == "gl" else workers
     rounds = plan.rounds(settings, sheet, until_error, adaptive)
     rays = dropped = done = 0
     complete = True
@@ -78,7 +90,18 @@ def render(scene, settings, progress=None, workers=1, steps=RIGHT, until_error=N
                 progress(done, pixels * settings.spp)
     except KeyboardInterrupt:
         complete = False
-    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete)
+    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete, engine)
+
+
+def tracing(engine, scene, settings, steps):
+    """What traces a task by that engine: a function that gives its Result."""
+    if engine == "numpy":
+        return partial(waves.trace, scene.at(settings), settings, steps)
+    if engine != "gl":
+        raise TracerError(f"engine: {engine!r} is not known; choose one of numpy, gl")
+    from tracer.engine.gl.tracing import Tracer  # where it is used: it needs a package that may be missing
+
+    return Tracer(scene, settings, steps)
 
 
 def asked(scene, settings, steps):

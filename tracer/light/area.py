@@ -73,6 +73,10 @@ class AreaLights:
         self._way = np.array(chosen, np.int8)
         self._only = self._way[0] if (self._way == self._way[0]).all() else None
 
+    def columns(self):
+        """Of each face (F,): its probability, how far a point may be off it, and how it is sampled."""
+        return self._chance, self._slack, self._way
+
     def sample(self, p, u, face):
         """A point on each chosen face (N,) for its receiver p (3, N), from u (2, N), as a LightSample."""
         technique, q, nq, density = self._drawn(p, u, face)

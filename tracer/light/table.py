@@ -62,6 +62,15 @@ class Lights:
         return LightSample(*(np.broadcast_to(c, n) for c in columns), q, nq, wi, distance, Le, pdf * pick)
 
     @property
+    def cdf(self):
+        """Where in [0, 1] one face or other light ends and the next begins, ascending."""
+        return self._cdf
+
+    def elsewhere(self):
+        """The lights that are no shapes, each with its probability."""
+        return list(zip(self._others, self._pick[self._shapes :], strict=True))
+
+    @property
     def surround(self):
         """Whether rays that leave the scene find light."""
         return self._surrounding is not None

@@ -13,6 +13,7 @@ from tracer.settings import TracerError
 from viewer.options import Json, PathOptions, Whole, print_json, scene_of, settings_and_steps
 from viewer.progress import watched
 
+ENGINES = ("numpy", "gl", "auto")
 MOST_SPP = 4096  # samples of a pixel where only an error is asked for
 
 
@@ -22,7 +23,7 @@ def render(
     *,
     output: Annotated[Path | None, Parameter(name=["-o", "--output"])] = None,
     options: PathOptions | None = None,
-    engine: str = "auto",
+    engine: str = "numpy",
     workers: Annotated[int | None, Whole] = None,
     until_error: float | None = None,
     adaptive: str = "off",
@@ -40,7 +41,8 @@ def render(
     output
         Where the picture goes; SCENE.png in this folder unless said.
     engine
-        numpy, or auto, which is the same until there are others.
+        numpy; gl, which traces on the graphics card (needs moderngl and OpenGL 4.3) and gives the same
+        picture but for rounding; or auto: gl where there is a graphics card and it can do what is asked.
     workers
         Most processes to use (default: one for each core). The picture is the same for any number.
     until_error
@@ -57,8 +59,10 @@ def render(
     explain
         Say what the scene needs, what is skipped, and why.
     """
-    if engine not in ("auto", "numpy"):
-        raise TracerError(f"engine: {engine!r} is not known; choose one of auto, numpy")
+    if engine not in ENGINES:
+        raise TracerError(f"engine: {engine!r} is not known; choose one of {', '.join(ENGINES)}")
+    if engine == "gl" and record is not None:
+        raise TracerError("engine: gl keeps no paths; leave out --record, or choose engine numpy")
     if workers is not None and not 1 <= workers <= 1024:
         raise TracerError(f"workers: {workers} is not between 1 and 1024")
     settings, steps = settings_and_steps(options)
@@ -73,6 +77,9 @@ def render(
         raise TracerError(
             "record: keeps the same samples of every pixel; leave out --until-error and --adaptive"
         )
+    why = ""
+    if engine == "auto":
+        engine, why = _chosen(loaded, settings, steps, record)
     with watched("rendering") as progress:
         workers = workers or os.cpu_count() or 1
         if record is not None:
@@ -80,7 +87,7 @@ def render(
                 loaded, settings, record, record_level or "paths", progress, workers, steps
             )
         else:
-            picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive)
+            picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive, engine)
     tracer.write(picture, path, scene=str(scene))
     features = []
     if explain:
@@ -88,7 +95,18 @@ def render(
 
         features = list(needs(loaded, picture.settings))
     _report(loaded, picture, path, json, features, _kept(record) if record is not None else {})
+    if why and not json:
+        print(f"engine {picture.engine}: {why}")
     return 0 if picture.complete else 130
+
+
+def _chosen(scene, settings, steps, record):
+    """The engine that auto takes, and why."""
+    from tracer.engine.gl.choice import faster
+
+    if record is not None:
+        return "numpy", "gl keeps no paths"
+    return faster(scene, settings.at_size_of(scene), steps)
 
 
 def _kept(record):
@@ -114,7 +132,7 @@ def _report(scene, picture, path, as_json, features, kept):
                 "height": height,
                 "spp": settings.spp,
                 "seed": settings.seed,
-                "engine": "numpy",
+                "engine": picture.engine,
                 "seconds": picture.seconds,
                 "paths": picture.paths,
                 "rays": picture.rays,

@@ -1,0 +1,201 @@
+"""The gl engine traces the paths that NumPy traces, and refuses by name what it cannot do."""
+
+import re
+from dataclasses import replace
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+import same_paths
+from cases import loaded
+from suite import ROOT, castray, missing
+
+import tracer
+from lessons import zoo
+from tracer import Settings, TracerError
+from tracer.engine.gl import device, source, tables
+from tracer.engine.gl.choice import faster
+from tracer.integrator.steps import RIGHT
+from tracer.testing import z_test
+
+FLAT = ("cornell_unit", "furnace")  # nothing but flat diffuse surfaces
+OTHERS = ("cornell_glass", "mirror_corridor", "glass_slab", "sky")
+ALPHA = 1e-4  # chance that one of the comparisons below fails though all is right
+
+
+@pytest.fixture(scope="module")
+def gl():
+    """OpenGL, drawn by whomever."""
+    try:
+        return device.device()
+    except TracerError as error:
+        missing(f"OpenGL 4.3 ({error})")
+
+
+def small(**options):
+    return Settings(**{"width": 16, "height": 16, "spp": 48, "max_depth": 12, **options})
+
+
+@pytest.fixture
+def wrong(monkeypatch):
+    """Makes a mistake in the shader: another text in place of one that must be there."""
+
+    def plant(right, other):
+        whole = source.text
+
+        def text(name):
+            return whole(name).replace(right, other)
+
+        assert any(right in path.read_text(encoding="utf-8") for path in SHADERS)
+        monkeypatch.setattr(source, "text", text)
+
+    return plant
+
+
+SHADERS = sorted((ROOT / "tracer" / "engine" / "gl" / "glsl").rglob("*.glsl"))
+
+
+def compared(scene, seed):
+    """The z-test of pictures by both engines, of different random numbers."""
+    pictures = [
+        tracer.render(loaded(scene), small(seed=seed + k), engine=engine)
+        for k, engine in enumerate(("numpy", "gl"))
+    ]
+    return z_test(*pictures, alpha=ALPHA)
+
+
+@pytest.mark.slow
+@pytest.mark.statistical
+@pytest.mark.parametrize("scene", FLAT + OTHERS)
+def test_both_engines_give_the_same_picture(gl, suite_seed, scene):
+    found = compared(scene, suite_seed)
+    assert found.same, found.p_value
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("right", "other"),
+    [
+        ("#define INV_PI 0.318309886", "#define INV_PI 0.35"),
+        ("visible = !occluded(hit, light)", "visible = true"),
+    ],
+    ids=["diffuse", "shadows"],
+)
+def test_a_wrong_shader_gives_another_picture(gl, suite_seed, wrong, right, other):
+    wrong(right, other)
+    assert not compared("cornell_unit", suite_seed).same
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", FLAT + OTHERS)
+def test_nearly_all_paths_are_the_same_paths(gl, scene):
+    found = same_paths.share(loaded(scene), Settings(width=32, height=32, spp=4))
+    assert found >= 0.999
+
+
+@pytest.mark.slow
+def test_paths_that_go_elsewhere_are_not_the_same(gl, wrong):
+    wrong("p = p - (dot(n, p) - s.plane.w) * n", "p = p - (dot(n, p) - s.plane.w + 0.001) * n")
+    assert same_paths.share(loaded("cornell_unit"), Settings(width=16, height=16, spp=4)) < 0.5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"sampler": "lattice", "replicates": 2},
+        {"integrator": "direct", "light_sampling": "area", "hemisphere": "uniform"},
+        {"integrator": "walk", "roulette": "0.8"},
+        # 15: with 16 pixel centres lie on edges of the room.
+        {"heuristic": "balance", "roulette": "off", "max_depth": 4, "jitter": False, "width": 15},
+        {"strategy": "light", "max_depth": 0},
+    ],
+    ids=lambda options: "-".join(map(str, options.values())),
+)
+def test_every_option_means_the_same(gl, options):
+    settings = small(spp=4, **options)
+    ours, theirs = (tracer.render(loaded("cornell_unit"), settings, engine=e) for e in ("gl", "numpy"))
+    assert np.isclose(ours.rgb, theirs.rgb, rtol=1e-3, atol=1e-5).all(axis=2).mean() > 0.99
+    assert np.array_equal(np.isnan(ours.variance), np.isnan(theirs.variance))
+    assert abs(ours.rays - theirs.rays) <= 0.001 * theirs.rays
+    assert (ours.engine, ours.dropped, ours.complete) == ("gl", 0, True)
+
+
+REFUSED = [
+    ("smooth_ball", {}, "a shape of kind mesh"),
+    ("pool", {}, "a material with a texture"),
+    ("coloured_glass", {}, "shapes that are filled (interior)"),
+    ("cornell_unit", {"precision": 64}, "precision 64"),
+]
+
+
+@pytest.mark.parametrize(("scene", "options", "what"), REFUSED)
+def test_what_it_cannot_do_is_refused_by_name(scene, options, what):
+    with pytest.raises(TracerError, match=re.escape(what)) as error:
+        tracer.render(tracer.load(scene), small(**options), engine="gl")
+    assert str(error.value).startswith("engine: gl cannot do ")
+
+
+def test_a_replaced_step_is_refused_with_its_bug():
+    with pytest.raises(TracerError, match="bug E01, which replaces emission_weight"):
+        tracer.render(loaded("furnace"), small(bug="E01"), steps=zoo.steps("E01"), engine="gl")
+
+
+def test_the_command_refuses_in_one_line_and_writes_nothing(tmp_path):
+    done = castray("render", "cornell_unit", "--engine", "gl", "--bug", "E01", "-o", tmp_path / "a.png")
+    assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    done = castray(
+        "render", "furnace", "--engine", "gl", "--record", tmp_path / "r", "-o", tmp_path / "a.png"
+    )
+    assert done.returncode == 2 and "gl keeps no paths" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.fixture
+def afresh():
+    """The context is asked for anew, here and afterwards."""
+    device.device.cache_clear()
+    yield
+    device.device.cache_clear()
+
+
+def test_without_moderngl_it_says_what_to_install(afresh, monkeypatch):
+    monkeypatch.setattr(device, "find_spec", lambda name: None)
+    with pytest.raises(TracerError, match="pip install moderngl"):
+        tracer.render(loaded("furnace"), small(), engine="gl")
+
+
+def test_without_a_driver_it_says_what_the_driver_lacks(afresh, monkeypatch):
+    if find_spec("moderngl") is None:
+        missing("moderngl")
+    import moderngl
+
+    def none(**_):
+        raise RuntimeError("no display\nanywhere")
+
+    monkeypatch.setattr(moderngl, "create_standalone_context", none)
+    with pytest.raises(TracerError, match="a driver with OpenGL 4.3 .*: no display anywhere") as error:
+        tracer.render(loaded("furnace"), small(), engine="gl")
+    assert "\n" not in str(error.value)
+
+
+def test_auto_takes_it_only_where_a_graphics_card_draws(gl, monkeypatch):
+    scene, settings = loaded("cornell_unit"), small()
+    monkeypatch.setattr("tracer.engine.gl.choice.renderer", lambda: "card")
+    for hardware, taken in ((True, "gl"), (False, "numpy")):
+        monkeypatch.setattr("tracer.engine.gl.choice.is_hardware", lambda here=hardware: here)
+        assert faster(scene, settings, RIGHT)[0] == taken
+    monkeypatch.setattr("tracer.engine.gl.choice.is_hardware", lambda: True)
+    engine, why = faster(scene, replace(settings, precision=64), RIGHT)
+    assert (engine, why) == ("numpy", "gl cannot do precision 64")
+
+
+def test_each_material_stands_beside_its_twin_in_the_same_order():
+    for kind in tables.KINDS:
+        twin = (ROOT / "tracer" / "bsdf" / f"{kind.lower()}.py").read_text(encoding="utf-8")
+        shader = source.text(f"bsdf/{kind.lower()}")
+        for text, pattern in (
+            (twin, r"def (eval|pdf|sample)\("),
+            (shader, rf" {kind.lower()}_(eval|pdf|sample)\(Material"),
+        ):
+            assert list(dict.fromkeys(re.findall(pattern, text))) == ["eval", "pdf", "sample"]

@@ -1,0 +1,45 @@
+// How much light a smooth boundary reflects: the twin of tracer/bsdf/fresnel.py, in float32.
+
+float schlick(float cos, float head_on)
+{
+    float miss = 1.0 - cos;
+    return head_on + (1.0 - head_on) * (miss * miss) * (miss * miss) * miss;
+}
+
+// Unpolarised reflectance; cos_t: the refracted cosine, 0 beyond the critical angle.
+float dielectric_mean(float cos, float eta, bool approximate, out float cos_t)
+{
+    float contrast = (eta - 1.0) * (eta + 1.0), square = contrast + cos * cos;
+    cos_t = cos;
+    if (contrast == 0.0)
+        return approximate ? schlick(cos, 0.0) : 0.0;
+    float g = sqrt(max(square, 0.0));
+    cos_t = g / eta;
+    if (approximate) {
+        float head_on = (eta - 1.0) * (eta - 1.0) / ((eta + 1.0) * (eta + 1.0));
+        return cos_t == 0.0 && eta < 1.0 ? 1.0 : schlick(eta < 1.0 ? cos_t : cos, head_on);
+    }
+    if (square <= 0.0)
+        return 1.0;
+    float eta2 = eta * eta;
+    float s = contrast / (square + cos * (cos + 2.0 * g));
+    float p = contrast * ((eta2 + 1.0) * cos * cos - 1.0) / (square + eta2 * cos * (eta2 * cos + 2.0 * g));
+    return 0.5 * (min(s * s, 1.0) + min(p * p, 1.0));
+}
+
+// Unpolarised reflectance of one channel; k below 0 stands for a perfect mirror.
+float conductor_mean(float cos, float eta, float k, bool approximate)
+{
+    if (k < 0.0)
+        return 1.0;
+    float eta2 = eta * eta, k2 = k * k;
+    if (approximate)
+        return schlick(cos, ((eta - 1.0) * (eta - 1.0) + k2) / ((eta + 1.0) * (eta + 1.0) + k2));
+    float cos2 = cos * cos, sin2 = 1.0 - cos2, t0 = eta2 - k2 - sin2;
+    float a2b2 = sqrt(t0 * t0 + 4.0 * eta2 * k2);
+    float part = 2.0 * cos * sqrt(max(0.5 * (a2b2 + t0), 0.0)), least = 1.17549435e-38;
+    float rs = (a2b2 + cos2 - part) / max(a2b2 + cos2 + part, least);
+    float sum = cos2 * a2b2 + sin2 * sin2;
+    float rp = rs * (sum - part * sin2) / max(sum + part * sin2, least);
+    return 0.5 * (clamp(rs, 0.0, 1.0) + clamp(rp, 0.0, 1.0));
+}

@@ -1,0 +1,50 @@
+// Shapes, materials and lights as one thing that rays can be asked of: the twin of tracer/scene.py.
+
+struct Hit {
+    vec3 p;
+    int primitive;
+    vec3 ng;
+    vec3 wo;
+    int face;     // of those that shine, -1 for none
+    float bound;
+    Material material;
+};
+
+Near intersect(Ray r)
+{
+    Near near = Near(INFINITE, -1);
+    meet_all(r, near);
+    return near;
+}
+
+Hit surface_hit(Ray r, Near near)
+{
+    Surface s = surfaces[near.primitive];
+    vec3 p = r.o + near.t * r.d, n = s.plane.xyz;
+    if (s.number.x == SPHERE) {
+        vec3 out_ = p - s.plane.xyz;
+        out_ = out_ / length(out_);
+        p = s.plane.xyz + s.plane.w * out_;
+        n = s.more.y * out_;
+    } else
+        p = p - (dot(n, p) - s.plane.w) * n;
+    return Hit(p, near.primitive, n, -r.d, s.number.z, error_bound(p, n, s.more.x), materials[s.number.y]);
+}
+
+Ray spawn(Hit hit, vec3 wi)
+{
+    bool outside = surfaces[hit.primitive].number.x == SPHERE || sign_bit(dot(hit.ng, wi)) > 0.0;
+    return Ray(leave(hit.p, hit.ng, hit.bound, wi), wi, hit.primitive, -1, hit.bound, outside);
+}
+
+bool occluded(Hit hit, LightSample light)
+{
+    Ray r = spawn(hit, light.wi);
+    float reach = light.primitive < 0 ? 0.0 : surfaces[light.primitive].more.x;
+    vec3 goal = leave(light.q, light.nq, error_bound(light.q, light.nq, reach), -light.wi);
+    vec3 gap = goal - r.o;
+    Near near = Near(length(gap), -1);
+    r.d = gap / near.t;
+    r.target = light.primitive;
+    return blocked(r, near);
+}

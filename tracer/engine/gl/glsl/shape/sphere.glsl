@@ -1,0 +1,22 @@
+// A sphere: the twin of tracer/shape/sphere.py.
+
+void meet_sphere(Ray r, inout Near near, int primitive, vec4 ball)
+{
+    vec3 oc = r.o - ball.xyz;
+    float b = dot(oc, r.d), t;
+    if (primitive == r.target)
+        return;
+    if (primitive == r.source)
+        t = -2.0 * b;
+    else {
+        vec3 foot = oc - b * r.d;
+        float disc = ball.w * ball.w - dot(foot, foot);
+        if (!(disc >= 0.0))
+            return;
+        float away = -(b + sqrt(disc) * sign_bit(b)), size = length(oc);
+        float close = (size - ball.w) * (size + ball.w) / away;
+        t = min(close, away) > 0.0 ? min(close, away) : max(close, away);
+    }
+    if (t > 0.0 && t < near.t)
+        near = Near(t, primitive);
+}

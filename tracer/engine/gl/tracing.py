@@ -1,0 +1,92 @@
+"""Waves traced by a shader: what `engine.waves.trace` is for NumPy."""
+
+import numpy as np
+
+from tracer import film
+from tracer.engine.gl.device import device
+from tracer.engine.gl.refusals import refuse
+from tracer.engine.gl.source import GROUP, Source
+from tracer.engine.waves import Result
+from tracer.sampler import pack_pixel
+from tracer.settings import TracerError
+
+WATCHED = 5  # vertices of a path that are kept where they are looked at
+
+
+def _compiled(context, text):
+    try:
+        return context.compute_shader(text)
+    except Exception as error:  # moderngl's own, which has no name outside it
+        said = next((line for line in str(error).splitlines() if "error" in line.lower()), error)
+        raise TracerError(
+            f"engine: the driver does not take the shader of gl ({said}); choose engine numpy"
+        ) from error
+
+
+class Tracer:
+    """The shader of a scene at some settings, and its tables, ready to trace tasks.
+
+    Raises TracerError where scene, settings or steps ask for what it cannot do, or there is no OpenGL.
+    """
+
+    def __init__(self, scene, settings, steps, watched=False):
+        scene = scene.at(settings)
+        refuse(scene, settings, steps)
+        self.settings, self._watched = settings, WATCHED if watched else 0
+        source = Source(scene, settings, self._watched)
+        context = device()
+        self._tables = {binding: context.buffer(data) for binding, data in source.buffers.items()}
+        self._shader = _compiled(context, source.text)
+        self._buffers = {}
+        self._say(seed=settings.seed)
+
+    def __call__(self, task):
+        """Trace one task; its samples are folded as those of every engine are."""
+        numbers = task.numbers
+        radiance = self.trace(numbers % self.settings.width, numbers // self.settings.width, *task[1:])
+        rays, radiance = radiance[..., 3], radiance[..., :3].transpose(2, 0, 1)
+        finite = np.isfinite(radiance).all(axis=0)
+        counted = np.where(finite, radiance, np.float32(0.0))
+        block = film.block(counted, task.sample, self.settings.parts)
+        return Result(task, block, int(rays.sum(dtype=np.float64)), int(np.count_nonzero(~finite)))
+
+    def trace(self, x, y, first, samples):
+        """Radiance and number of rays, (P, samples, 4) float32, of so many samples of pixels (P,) from number
+        `first`, or (P,) numbers, on."""
+        pixels = np.empty((x.size, 2), np.uint32)
+        pixels[:, 0], pixels[:, 1] = pack_pixel(x, y), first
+        paths = x.size * samples
+        self._put(0, pixels.tobytes())
+        out = self._room(1, 16 * paths)
+        if self._watched:
+            self._room(10, 32 * self._watched * paths)
+            self._room(11, 4 * paths)
+        for binding, table in (self._tables | self._buffers).items():
+            table.bind_to_storage_buffer(binding)
+        self._say(paths=paths, samples=samples)
+        self._shader.run(-(-paths // GROUP))
+        return np.frombuffer(out.read(16 * paths), np.float32).reshape(-1, samples, 4)
+
+    def vertices(self, paths):
+        """What the last call kept of its paths: (number (N, 5, 4) int32, p (N, 5, 3), end (N,))."""
+        kept = np.frombuffer(self._buffers[10].read(), [("number", "4i4"), ("p", "4f4")])
+        kept = kept[: paths * WATCHED].reshape(-1, WATCHED)
+        ends = np.frombuffer(self._buffers[11].read(), np.int32)[:paths]
+        return kept["number"], kept["p"][..., :3], ends
+
+    def _say(self, **numbers):
+        """Set uniforms; those that a shader has no use for are not there."""
+        for name, value in numbers.items():
+            if name in self._shader:
+                self._shader[name] = value
+
+    def _room(self, binding, size):
+        """A buffer of at least that size."""
+        if binding not in self._buffers or self._buffers[binding].size < size:
+            if binding in self._buffers:
+                self._buffers[binding].release()
+            self._buffers[binding] = device().buffer(reserve=size)
+        return self._buffers[binding]
+
+    def _put(self, binding, data):
+        self._room(binding, len(data)).write(data)
