@@ -51,7 +51,9 @@ def pictures(tmp_path_factory):
 
 def test_the_numbers_are_those_of_castray_diff(page, pictures):
     judged = page.get_by_test_id("compare-numbers")
-    judged.and_(page.locator(f"[data-exact*='{pictures['errors']['rmse']!r}']")).wait_for(timeout=60_000)
+    judged.and_(page.locator(f"[data-exact*='{pictures['errors']['rmse']!r}']")).wait_for(
+        state="attached", timeout=60_000
+    )
     shown = json.loads(judged.get_attribute("data-exact"))
     for key in ("same", "p_value", "errors", "test"):
         assert shown[key] == pytest.approx(pictures[key]) if key == "p_value" else shown[key] == pictures[key]

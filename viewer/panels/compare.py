@@ -26,11 +26,11 @@ TEMPLATE = """
     :data-testid="'view-' + (v.name || 'alone')" :title="v.title" @click="trigger('compare_view', [v.name])">{{ v.label }}</button></div>
   <table class="data sums" data-testid="compare-pixel"><tbody><tr v-for="row in compare.pixel" :key="row.name"><th scope="row">{{ row.name }}</th>
     <td class="number" :data-testid="'compare-' + row.key" :data-exact="JSON.stringify(row.exact)">{{ row.value }}</td></tr></tbody></table>
-  <template v-if="compare.verdict"><p :class="{good: compare.verdict.equal}" data-testid="compare-verdict">{{ compare.verdict.said }}</p>
-  <table class="data sums" data-testid="compare-numbers" :data-exact="JSON.stringify(compare.verdict.exact)"><tbody>
+  <template v-if="compare.verdict"><p :class="{good: compare.verdict.equal}" data-testid="compare-verdict">{{ compare.verdict.said }}
+    <button class="small" data-testid="compare-worst" @click="trigger('pick', compare.verdict.worst)">{{ w.compare_worst }}</button></p>
+  <details><summary>{{ w.compare_numbers }}</summary><table class="data sums" data-testid="compare-numbers" :data-exact="JSON.stringify(compare.verdict.exact)"><tbody>
     <tr v-for="row in compare.verdict.rows" :key="row.name"><th scope="row">{{ row.name }}</th><td class="number">{{ row.value }}</td></tr></tbody></table>
-  <p><button data-testid="compare-worst" @click="trigger('pick', compare.verdict.worst)">{{ w.compare_worst }}</button></p>
-  <p v-for="note in compare.verdict.notes" :key="note" class="dim">{{ note }}</p></template>
+  <p v-for="note in compare.verdict.notes" :key="note" class="dim">{{ note }}</p></details></template>
   <h2>{{ w.compare_twin }}</h2>
   <p v-if="compare.untwinned" class="dim" data-testid="compare-untwinned">{{ compare.untwinned }}</p>
   <template v-if="compare.twin"><p data-testid="compare-parting" :data-step="compare.twin.step">{{ compare.twin.said }}</p>
