@@ -96,43 +96,53 @@ def test_a_factor_was_made_by_the_event_that_it_names():
                     assert path.events[origin(path, event.step, "f")].kind.name == "hit"
 
 
-SEEN = {  # bug: the reason that gives it away
-    "D01": "light.phantom",
-    "D04": "light.phantom",
-    "D06": "unfit.f",
-    "D07": "light.negative",
-    "D11": "unfit.result",
-    "B01": "unfit.pdf",
-    "B02": "unfit.result",
-    "E01": "met.certain",
-    "E02": "met.lost",
-    "R01": "unfit.result",
+SEEN = {  # bug: the reason that gives it away, and the kind of event that it leads to
+    "D01": ("light.phantom", "light"),
+    "D03": ("redone.through", "light"),
+    "D06": ("unfit.f", "light"),
+    "D07": ("light.negative", "light"),
+    "D11": ("unfit.result", "light"),
+    "D14": ("redone.density", "light"),
+    "D20": ("unfit.direction", "light"),
+    "B01": ("unfit.pdf", "bounce"),
+    "B02": ("unfit.result", "bounce"),
+    "B09": ("redone.direction", "bounce"),
+    "E01": ("met.certain", "hit"),
+    "E02": ("met.lost", "hit"),
+    "E06": ("light.back_lit", "light"),
+    "F01": ("film", "end"),
+    "G03": ("redone.hit", "hit"),
+    "M01": ("redone.weight", "light"),
+    "N03": ("redone.normal", "hit"),
+    "R01": ("unfit.result", "roulette"),
+    "R03": ("redone.fate", "roulette"),
+    "S06": ("redone.share", "bounce"),
 }
 
 
 def strange(scene, settings):
     """Reasons that no right tracer has, of some pixels, with the records."""
-    for x, y in ((12, 3), (8, 10), (16, 10), (8, 20), (16, 22)):
+    for x, y in ((12, 3), (8, 10), (16, 10), (8, 20), (16, 22), (3, 9), (18, 15), (12, 16)):
         record = tracer.inspect(scene, settings, x, y, steps=planted(settings))
         yield from ((reason, record) for reason in why(record, scene) if reason.strange)
 
 
 @pytest.mark.parametrize("bug", SEEN)
 def test_a_mistake_is_a_reason_that_leads_to_its_event(bug):
-    scene, kinds = tracer.load(zoo.of(bug).scene), set()
-    for reason, record in strange(scene, zoo.of(bug).asked(width=24, height=24, spp=16, bug=bug)):
-        if reason.key == SEEN[bug]:
-            path, step = reason.place
-            kinds.add(record.paths[path].events[step].kind.name)
-    expected = {"D": {"light"}, "B": {"bounce"}, "E": {"hit"}, "R": {"roulette"}}
-    assert kinds == expected[bug[0]]
+    scene = tracer.load(zoo.of(bug).scene)
+    for reason, record in strange(scene, zoo.of(bug).asked(width=24, height=24, spp=8, bug=bug)):
+        path, step = reason.place
+        if (reason.key, record.paths[path].events[step].kind.name) == SEEN[bug]:
+            return
+    pytest.fail("nothing gives it away")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["cornell", "materials", "smooth_ball", "coloured_glass"])
 def test_a_right_tracer_has_no_strange_reason(scene):
     for settings in (
-        zoo.of("D01").asked(width=24, height=24, spp=8),
-        tracer.Settings(width=24, height=24, spp=8),
+        zoo.of("D01").asked(width=24, height=24, spp=4),
+        tracer.Settings(width=24, height=24, spp=4),
     ):
         assert not list(strange(tracer.load(scene), settings))
 

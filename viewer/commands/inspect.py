@@ -54,6 +54,8 @@ def inspect(
     if event is not None and (sample is None or why):
         raise TracerError("event: is one of a path; name its --sample, and leave out --why")
     if what_if:
+        if why:
+            raise TracerError("why: is about paths as they are; leave out --what-if")
         if sample is None:
             raise TracerError("what_if: is for one path; name its --sample")
         record = supposed(loaded, settings, *pixel, sample, parse(what_if), steps)

@@ -66,7 +66,7 @@ def _meeting(event, scene, settings):
     if not scene.is_light(int(v["shape"])):
         return ""
     if not v["front"]:
-        return "" if np.any(v["contribution"] != 0) else "met.back"
+        return "met.back_lit" if np.any(v["contribution"] != 0) else "met.back"
     if not np.any(v["Le"] > 0):
         return "met.dark"
     if v["w"] == 0:  # from the camera and after a mirror nothing else could count it

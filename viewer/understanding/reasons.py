@@ -2,13 +2,17 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from tracer.recorder import number
 from viewer.numerals import short
 
 # What no right tracer does.
 STRANGE = frozenset(
     "invalid negative light.negative light.phantom light.self met.lost met.dark met.certain "
-    "unfit.result unfit.f unfit.pdf unfit.direction".split()
+    "unfit.result unfit.f unfit.pdf unfit.direction film met.back_lit light.back_lit "
+    "redone.direction redone.density redone.share redone.weight redone.through redone.hit redone.normal "
+    "redone.fate".split()
 )
 
 
@@ -46,3 +50,8 @@ class Reason:
         said = {"key": self.key, "sentence": self.sentence(say), "count": self.count, "of": self.of}
         said["strange"] = self.strange
         return said | {"path": path, "event": event, "values": values}
+
+
+def spelled(values):
+    """Numbers within a sentence."""
+    return " ".join(f"{v:.5g}" for v in np.ravel(values))

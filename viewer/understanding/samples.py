@@ -8,7 +8,7 @@ from viewer.numerals import luminance
 from viewer.understanding.places import places
 from viewer.understanding.reasons import Reason
 
-NEAR = 1e-3  # share of the way within which the surface that a ray starts on has no business to be
+NEAR = 1e-5  # share of the way within which the surface that a ray starts on has no business to be
 # What light samples that come to nothing for the same reason must have in common to be told together.
 BY = {"light.blocked": "blocker", "light.self": "blocker", "light.behind": "light"}
 BY |= dict.fromkeys(("light.below", "light.sides", "light.black", "light.dark"), "shape")
@@ -20,7 +20,7 @@ def outcome(sample):
     if np.any(v["contribution"] < 0):
         return "light.negative"
     if np.any(v["contribution"] > 0):
-        return ""
+        return "light.back_lit" if v["cos_light"] < 0 else ""
     if v["cos_light"] <= 0:
         return "light.behind"
     if not np.any(v["f"] > 0):

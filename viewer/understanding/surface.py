@@ -6,6 +6,11 @@ from tracer.frame import dot
 from tracer.scene import Hit
 
 
+def column(places, name):
+    """A field of the events of Places, side by side, (..., N)."""
+    return np.stack([np.asarray(place.event.values[name]) for place in places], axis=-1)
+
+
 class Surface:
     """Materials at hits: values of recorded HIT events, one a lane. scene: at the record's settings.
 
@@ -33,6 +38,10 @@ class Surface:
     def pdf(self, wi):
         """Density (N,) with which a bounce goes along world directions wi (3, N)."""
         return self.scene.bsdf.pdf(self.material, self.wo, self.frame.to_local(wi), self.texture)
+
+    def sample(self, u):
+        """Where bounces go that draw numbers u (3, N), as a Sample in the local frames."""
+        return self.scene.bsdf.sample(self.material, self.wo, u, self.texture)
 
     def property(self, name, wi):
         """A named quantity behind f, (3, N), NaN where a material has none."""

@@ -6,7 +6,7 @@ from viewer.caption import named
 from viewer.equation import product_of
 from viewer.numerals import luminance
 from viewer.understanding.places import places
-from viewer.understanding.reasons import Reason
+from viewer.understanding.reasons import Reason, spelled
 from viewer.understanding.surface import Surface
 
 KINDS = ("hit", "light", "bounce", "roulette")
@@ -65,11 +65,6 @@ def _near(recorded, right, share=FAR):
     return bool((np.abs(recorded - right) <= share * np.abs(right).max()).all())
 
 
-def _spelled(values):
-    """Numbers within a sentence."""
-    return " ".join(f"{v:.5g}" for v in np.ravel(values))
-
-
 def _reason(what, kind, group, of, scene):
     """The Reason of some events; of those nearest the camera the one that is furthest off stands for them."""
 
@@ -79,7 +74,7 @@ def _reason(what, kind, group, of, scene):
         return place.event.depth, -apart / whole if whole else -np.inf
 
     place, recorded, right = min(group, key=off)
-    values = {"events": kind, "recorded": _spelled(recorded), "right": _spelled(right)}
+    values = {"events": kind, "recorded": spelled(recorded), "right": spelled(right)}
     if what == "result":
         whole = luminance(right)
         values["times"] = luminance(recorded) / whole if whole else float("inf")

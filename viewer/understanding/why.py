@@ -3,9 +3,9 @@
 import numpy as np
 
 from viewer.numerals import luminance
-from viewer.understanding import ends, samples, unfit
-from viewer.understanding.reasons import Reason
-from viewer.understanding.waterfall import DEEP, KINDS, waterfall
+from viewer.understanding import ends, redone, samples, unfit
+from viewer.understanding.reasons import Reason, spelled
+from viewer.understanding.waterfall import DEEP, FILM, KINDS, carried, waterfall
 
 MOST = 9  # reasons beside the first sentences
 ALONE = 0.5  # share of the pixel from which on one path is told
@@ -19,6 +19,8 @@ def why(record, scene):
     scene = scene.at(record.settings)
     ranked = [
         *unfit.reasons(record, scene),
+        *redone.reasons(record, scene),
+        *_counted(record),
         *samples.reasons(record, scene),
         *ends.reasons(record, scene),
         *ends.met(record, scene),
@@ -71,6 +73,16 @@ def _invalid(record):
     if broken:
         count = len({k for k, _ in broken})
         yield Reason("invalid", count, len(record.paths), broken[0])
+
+
+def _counted(record):
+    """Paths that count for something else than they carry."""
+    for bar in waterfall(record):
+        if bar.kind == FILM:
+            path, step = bar.place
+            counted = spelled(record.paths[path].radiance)
+            values = {"carried": spelled(carried(record.paths[path])), "counted": counted}
+            yield Reason("film", bar.events, len(record.paths), (path, step), values, float(bar.events))
 
 
 def _alone(record):
