@@ -29,11 +29,19 @@ def examined(file, scene, options, seconds, quiet=False):
 
 
 def judged(whole, bright):
-    """One diagnosis of a learner's two traces: what that of all light samples cannot test is asked of that of
-    the bright ones, so that no law is held twice. The commands that would replay castray's own paths are left
-    out."""
+    """One diagnosis of a learner's two traces."""
+    return together(*held(whole, bright))
+
+
+def held(whole, bright):
+    """The diagnoses of a learner's two traces: what that of all light samples cannot test is asked of that of
+    the bright ones, so that no law is held twice."""
     first = tracer.examine(whole)
-    later = tracer.examine(bright, {v.rule.id for v in first.rules if v.state == NOT_TESTABLE})
+    return first, tracer.examine(bright, {v.rule.id for v in first.rules if v.state == NOT_TESTABLE})
+
+
+def together(first, later):
+    """One diagnosis of two. The commands that would replay castray's own paths are left out."""
     rules = {v.rule.id: v for v in (*first.rules, *later.rules)}
     order = list(rules)
     found = sorted((*first.findings, *later.findings), key=lambda f: order.index(f.rule))

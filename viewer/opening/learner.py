@@ -7,14 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-import tracer
 from lessons.course import about
 from tracer.events import LIGHT
 from tracer.learner.run import run
 from tracer.settings import TracerError
 from tracer.trace.jsonl.geometry import ask
 from tracer.trace.trace import Trace
-from viewer.checking.learner import together
+from viewer.checking.learner import held, together
 from viewer.examining import charted
 from viewer.opening.given import Given
 from viewer.worker import Stopped, outcome
@@ -26,10 +25,8 @@ LOOKED_EVERY = 0.25  # seconds: how soon a saved file is seen
 def given(file, scene, settings, stopped=lambda: None):
     """What a learner's tracer does on a scene (a file or name), as Given. Raises TracerError."""
     whole, used = run(file, scene, settings, SECONDS, stopped=stopped)
-    first, second = (tracer.examine(trace) for trace in (whole, used))
-    open_ = [verdict.rule.id for verdict in first.rules if verdict.state == "not_testable"]
-    diagnosis = together(first, second).explained_by(about)
-    chart = charted(whole, diagnosis, dict.fromkeys(open_, used))
+    first, later = held(whole, used)
+    chart = charted(whole, together(first, later).explained_by(about), {v.rule.id: used for v in later.rules})
     return Given(Path(file).name, _with_f(whole, used), chart, "check", f"{file} --scene {scene}")
 
 
