@@ -9,6 +9,7 @@ import os
 import pickle
 import subprocess
 import sys
+import tempfile
 from html import escape
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import numpy as np
 
 import tracer
 from lessons.zoo import planted
+from tracer.picture import write_whole
 from tracer.settings import TracerError
 from tracer.trace import folder
 from tracer.trace.stored_scene import restore
@@ -29,6 +31,7 @@ from viewer.words import Speaker
 
 ROOT = Path(__file__).resolve().parent.parent
 FRAME = 720  # pixels that a cell is high
+RUNNING: list = []  # servers that were not closed: a cell may show what no name holds
 CHILD = "from viewer.notebook import child; child()"
 SWAP = """<script>(() => {
   const frame = document.currentScript.previousElementSibling, host = window.location.hostname;
@@ -94,7 +97,7 @@ class Shown:
 
     def save(self, file):
         """Write the page that needs nothing else."""
-        tracer.picture.write_whole(file, lambda beside: Path(beside).write_text(self.html, encoding="utf-8"))
+        write_whole(file, lambda beside: Path(beside).write_text(self.html, encoding="utf-8"))
 
     def close(self):
         """End the viewer; the page stays."""
@@ -116,25 +119,35 @@ class _Server:
     """A viewer in a process of its own. It ends with this one."""
 
     def __init__(self, scene, settings, place, recording, compare):
-        path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+        there = os.environ.get("PYTHONPATH")
+        more = {
+            "PYTHONPATH": os.pathsep.join([str(ROOT), *([there] if there else [])]),
+            "PYTHONSAFEPATH": "1",  # a file beside the notebook may well be called tracer.py
+            "PYTHONIOENCODING": "utf-8",
+        }
+        errors = tempfile.TemporaryFile()  # not a pipe, which would be full some day
         self._process = subprocess.Popen(
             [sys.executable, "-c", CHILD],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": path, "PYTHONIOENCODING": "utf-8"},
+            stderr=errors,
+            env={**os.environ, **more},
         )
         asked = {"start": place, "recording": recording, "against": compare}
-        told, heard, errors = self._process.stdin, self._process.stdout, self._process.stderr
-        assert told is not None and heard is not None and errors is not None
+        told, heard = self._process.stdin, self._process.stdout
+        assert told is not None and heard is not None
         pickle.dump((scene, settings, asked), told)
         told.flush()  # and left open: when it closes, the viewer ends
         self.address = heard.readline().decode("utf-8").strip()
         if not self.address:
+            self._process.wait()
+            errors.seek(0)
             said = errors.read().decode("utf-8").strip().splitlines()
             raise TracerError(
                 said[-1].removeprefix("castray: ") if said else "show: the viewer did not start"
             )
+
+        RUNNING.append(self)
 
     @property
     def door(self):
@@ -144,7 +157,8 @@ class _Server:
 
     def close(self):
         """End it."""
-        if self._process.poll() is None:
+        if self in RUNNING:
+            RUNNING.remove(self)
             self._process.communicate(timeout=20)  # closes its standard input
 
 
@@ -158,7 +172,7 @@ def child():
     scene, settings, asked = pickle.load(sys.stdin.buffer)  # noqa: S301  from the process that started this one
 
     def watch():
-        sys.stdin.buffer.read()
+        os.read(sys.stdin.fileno(), 1)  # not by the buffer, which this thread would hold at the end
         _thread.interrupt_main()
 
     threading.Thread(target=watch, daemon=True).start()

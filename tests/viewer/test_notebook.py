@@ -65,6 +65,14 @@ def test_importing_the_viewer_for_it_imports_no_window():
     assert ran.stdout.split() == ["False", "False"]
 
 
+@pytest.mark.slow
+def test_what_the_viewer_refuses_is_one_clear_line_even_beside_a_file_called_tracer(tmp_path, monkeypatch):
+    (tmp_path / "tracer.py").write_text("raise SystemExit('the wrong tracer')", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(tracer.TracerError, match="'Z99' is neither a bug"):
+        viewer.show("cornell_unit", compare="Z99", **SMALL)
+
+
 @pytest.mark.browser
 def test_in_a_notebook_on_this_machine_the_viewer_takes_the_pages_place(context, tmp_path):
     shown = viewer.show("cornell_unit", compare="D01", **SMALL)
