@@ -144,5 +144,5 @@ def _print_untestable(verdicts, say, console):
     for verdict in verdicts:
         lacking.setdefault(verdict.missing, []).append(verdict.rule.id)
     for missing, rules in lacking.items():
-        said = say("doctor.untestable", missing=missing, rules=say.listed(*rules))
+        said = say("doctor.untestable", missing=say.lacking(missing), rules=say.listed(*rules))
         console.print(Text(said, style="dim"))

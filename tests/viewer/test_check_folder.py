@@ -45,14 +45,25 @@ def test_a_wrong_one_is_named_with_the_part_that_fails_and_the_command_that_prov
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        ("def cast_ray(scene:\n", "line 1: "),
+        ("def cast_ray(scene:\n", "mine.py:1: "),
         ("import os\nos._exit(7)\n", "ended with code 7"),
-        ("raise ValueError('<script>')\n", "line 1: in <module>: ValueError"),
+        ("raise ValueError('<script>')\n", "mine.py:1: in <module>: ValueError"),
     ],
 )
 def test_what_fails_is_a_row_that_says_why(tmp_path, content, said):
     found = row(tmp_path, "mine.py", content)
     assert found.state == FAILED and said in found.error
+
+
+def test_the_row_says_an_error_without_its_name_and_in_chinese():
+    failed = Row(
+        "a/b.py",
+        FAILED,
+        error="b.py: its process ended with code 7; it may take 4 GiB of memory",
+        path="a/b.py",
+    )
+    assert report.finding(failed, SAY).startswith("its process ended")
+    assert report.finding(failed, Speaker("zh")).startswith("它的进程以代码 7 结束")
 
 
 def test_a_tracer_that_hangs_is_ended_and_is_a_row(tmp_path):

@@ -50,3 +50,25 @@ def test_json_is_one_document_that_says_all_of_it():
 def test_bad_input_is_one_line_and_code_2(words):
     ran = castray("doctor", *words)
     assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1 and not ran.stdout
+
+
+def test_what_it_lacks_is_told_in_chinese_as_well():
+    ran = castray(
+        "--lang",
+        "zh",
+        "doctor",
+        "furnace",
+        "--size",
+        4,
+        4,
+        "--spp",
+        1,
+        "--integrator",
+        "direct",
+        "--no-jitter",
+    )
+    assert (
+        "无法检验（没有逃逸事件）" in ran.stdout
+        and "too few" not in ran.stdout
+        and "no escape" not in ran.stdout
+    )

@@ -3,7 +3,7 @@
 import csv
 import io
 from html import escape
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from rich.console import Console
 from rich.table import Table
@@ -41,7 +41,7 @@ def _parts(kinds, say):
 def finding(row, say):
     """What is wrong, in short."""
     if row.state == FAILED:
-        return say.error(row.error)
+        return _without_name(say.error(row.error), row)
     if row.found is None:
         return say("check.unknown") if row.state == MAYBE else ""
     if isinstance(row.found, Hypothesis):
@@ -51,6 +51,15 @@ def finding(row, say):
     named = bugs(row.found, say)
     title = bug_title(row.found.bug, say) if row.found.bug else counted(row.found, say)["title"]
     return f"{named} {title}".strip()
+
+
+def _without_name(said, row):
+    """An error without the file that it is of: the row has it."""
+    for name in (row.path, PurePath(row.path).name):
+        for mark in (":", "\N{FULLWIDTH COLON}"):
+            if name and said.startswith(f"{name}{mark}"):
+                return said.removeprefix(f"{name}{mark}").strip()
+    return said
 
 
 def certainty(row, say):

@@ -21,8 +21,8 @@ class Row:
 
     state: one of STATES. passed, failed: kinds of event, with path for what is asked of whole paths, of which
     no law is broken, or one. found: a Finding of a trace, a Hypothesis of a picture, or None. error: the line
-    that says why it could not be judged. command: shows it alone. more: all findings with a cause of their
-    own, or all hypotheses.
+    that says why it could not be judged, with its path or its name. command: shows it alone. more: all
+    findings with a cause of their own, or all hypotheses.
     """
 
     name: str
@@ -32,6 +32,7 @@ class Row:
     found: Any = None
     more: tuple = ()
     error: str = ""
+    path: str = ""
     command: str = ""
 
 
@@ -47,21 +48,12 @@ def row_of(path, name, scene, options, seconds):
         if is_picture(path.name):
             return _of_picture(path, name, scene)
     except TracerError as error:
-        return Row(name, FAILED, error=_without_name(" ".join(str(error).split()), path))
+        return Row(name, FAILED, error=" ".join(str(error).split()), path=str(path))
     except MemoryError:
         return Row(name, FAILED, error="not enough memory to judge it")
     except Exception as error:  # one submission never costs the others their rows
         return Row(name, FAILED, error=f"castray could not judge it: {type(error).__name__}: {error}")
     return Row(name, SKIPPED)
-
-
-def _without_name(said, path):
-    """An error without the file that it is of: the row has it."""
-    for name in (str(path), path.name):
-        if said.startswith(f"{name}:"):
-            place, _, rest = said.removeprefix(f"{name}:").partition(": ")
-            return f"line {place}: {rest}" if place.isdigit() else said.removeprefix(f"{name}:").strip()
-    return said
 
 
 def _of_tracer(path, name, scene, options, seconds):

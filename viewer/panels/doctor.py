@@ -116,7 +116,7 @@ def _rule(verdict, say):
         "title": say.optional(f"rule.{rule.id}", rule.title),
         "law": say.optional(f"law.{rule.id}", rule.law),
         "checked": verdict.checked,
-        "missing": verdict.missing,
+        "missing": say.lacking(verdict.missing),
     }
 
 

@@ -102,7 +102,7 @@ def _rules(diagnosis, say):
     for verdict in sorted(diagnosis.rules, key=lambda v: STATES.index(v.state)):
         rule, state = verdict.rule, verdict.state
         law = escape(say.optional(f"law.{rule.id}", rule.law))
-        said = say(f"doctor.{state}") if state != "not_testable" else verdict.missing
+        said = say(f"doctor.{state}") if state != "not_testable" else say.lacking(verdict.missing)
         rows.append(
             f'<tr class="{state}" data-rule="{escape(rule.id)}" data-state="{state}" title="{law}">'
             f"<td>{escape(say.optional(f'rule.{rule.id}', rule.title))}</td><td>{escape(said)}</td>"

@@ -31,15 +31,15 @@ def table(language):
 
 
 @cache
-def _errors():
-    """Keys of the errors with patterns of their English."""
+def _patterns(prefix):
+    """Keys that begin so, with patterns of their English."""
 
     def pattern(words):
         parts = Formatter().parse(words)
         return "".join(re.escape(text) + (f"(?P<{name}>.+?)" if name else "") for text, name, _, _ in parts)
 
     known = table("en")
-    return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in known if key.startswith("error.")]
+    return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in known if key.startswith(prefix)]
 
 
 class Speaker:
@@ -68,11 +68,21 @@ class Speaker:
 
     def error(self, message):
         """An error in this language; in its own words where the table has none for it."""
+        return self._translated(message, "error.")
+
+    def lacking(self, missing):
+        """What the doctor lacks to judge a law, in this language."""
+        return self._translated(missing, "lacking.")
+
+    def _translated(self, message, prefix):
         if self.language != "en":
-            for key, pattern in _errors():
+            for key, pattern in _patterns(prefix):
                 found = pattern.fullmatch(message)
                 if found:
-                    return self(key, **found.groupdict())
+                    values = found.groupdict()
+                    if "kind" in values:
+                        values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
+                    return self(key, **values)
         return message
 
     def sentences(self, *said):
