@@ -4,10 +4,9 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-import tracer
 from outside.mistake import Mistake
 from tracer.learner import child, starter
-from viewer.commands.check import _settings, _together
+from viewer.checking.learner import judged, settings_of
 
 SMALL = {"width": 24, "height": 24, "spp": 8}
 
@@ -22,8 +21,8 @@ def diagnosed(changes):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mine.py"
         path.write_text(text, encoding="utf-8")
-        request = {"file": str(path), "scene": "cornell", "settings": _settings(None).as_dict() | SMALL}
-        return _together(*(tracer.examine(trace) for trace in child.run(request)))
+        request = {"file": str(path), "scene": "cornell", "settings": settings_of(None).as_dict() | SMALL}
+        return judged(*child.run(request))
 
 
 def _of(id, words, laws, changes, fair=()):
