@@ -105,6 +105,7 @@ def _run(session, port, open_browser, number=None, framed=False):
     from trame.app import get_server
 
     from viewer.calls import Calls
+    from viewer.opening.routes import serve_opening, show_findings
     from viewer.sharing.routes import serve_files
     from viewer.window import Window
 
@@ -120,11 +121,12 @@ def _run(session, port, open_browser, number=None, framed=False):
         web_server.app.middlewares.append(door.middleware)
         restrict(web_server, calls, window.whole_stage)
         serve_files(web_server, window)
+        serve_opening(web_server, window, calls)
 
     def shown(given):
         window.give(given)
         if watched.runs == 1:
-            _show_findings(window)
+            show_findings(window)
 
     def ready(**_):
         window.loop = asyncio.get_running_loop()
@@ -134,7 +136,7 @@ def _run(session, port, open_browser, number=None, framed=False):
         if watched is not None:
             watched.start(window.back, shown, lambda: window.show("given"))
         if session.given is not None:
-            _show_findings(window)
+            show_findings(window)
         if number is not None:
             with server.state as state:
                 state.tab = "lesson"
@@ -154,13 +156,6 @@ def _run(session, port, open_browser, number=None, framed=False):
             watched.stop()
         session.close()
     print("castray: viewer closed", file=sys.stderr)
-
-
-def _show_findings(window):
-    """Open the doctor's tab where it has found something in what is given."""
-    if window.session.given.chart.diagnosis.findings:
-        window.state.tab = "doctor"
-        window.look("doctor")
 
 
 def _listen(server, port):

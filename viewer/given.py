@@ -27,14 +27,14 @@ def recorded_trace(path, most=None):
 
 
 def logged_trace(file, scene, name=None):
-    """The Trace of a log, told of under a name; what was found out in reading it goes to standard error.
-    Raises TracerError."""
+    """The Trace of a log of a scene (a file, a name or a Scene), told of under a name; what was found out in
+    reading it goes to standard error. Raises TracerError."""
     from tracer.trace.jsonl import read_log
 
     if scene is None:
         raise TracerError(f"{file}: give --scene, the scene that this log is of")
     name = name or file
-    found = read_log(file, tracer.load(scene))
+    found = read_log(file, tracer.load(scene) if isinstance(scene, str) else scene)
     more = found.read.mistaken - len(found.mistakes)
     said = [*map(str, found.mistakes), *([f"... and {more} more mistakes"] if more else []), *found.notes]
     for line in said:

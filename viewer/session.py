@@ -41,6 +41,7 @@ class Session:
 
     def __init__(self, scene, settings, load, recording=None):
         self.load, self.desk, self.shelf = load, {}, {}
+        self.uploaded = {}  # scenes that came from the page, by name
         self.rivals, self.against = {}, ""  # what may be compared with beside tracers, by name; what is
         self.adopt(scene, settings)
         self.at_start = self.settings
@@ -75,7 +76,7 @@ class Session:
     def open(self, link):
         """Turn to what a link says; True if that needs a new picture."""
         here = link.scene == self.scene.name
-        scene = self.scene if here else self.load(link.scene)
+        scene = self.scene if here else self.uploaded.get(link.scene) or self.load(link.scene)
         if link.changes != scene.definition.changes:
             scene = changed(scene, link.changes)
         settings = link.settings.at_size_of(scene)

@@ -24,15 +24,16 @@ def built_in_scenes():
     return tuple(sorted(file.stem for file in BUILT_IN.glob("*.toml")))
 
 
-def load(scene):
+def load(scene, alone=False):
     """A Scene from a file, or from the bare name of one that comes with castray.
 
-    Raises TracerError with file, place, word, and the words that would do.
+    alone: whether the file may name no others (meshes, pictures, parts of the scene), as one that came from
+    outside. Raises TracerError with file, place, word, and the words that would do.
     """
     text = str(scene)
     path = Path(text)
     if path.suffix.lower() == ".xml":
-        return _load_xml(path)
+        return _load_xml(path, alone)
     if path.suffix.lower() != ".toml":
         if text not in built_in_scenes():
             known = ", ".join(built_in_scenes())
@@ -40,19 +41,31 @@ def load(scene):
         path = BUILT_IN / f"{text}.toml"
     description = _toml(path)
     try:
+        _check_alone(description, alone)
         return load_dict(description, path.stem, path.parent)
     except TracerError as error:
         raise TracerError(f"{path}: {error}") from None
 
 
-def _load_xml(path):
+def _load_xml(path, alone):
     from tracer.scene_file.mitsuba_xml import Translation
 
-    xml = Translation(path)
+    xml = Translation(path, alone)
     try:
+        _check_alone(xml.description, alone)
         return load_dict(xml.description, path.stem, path.parent)
     except TracerError as error:
         raise TracerError(f"{xml.place(str(error))}: {error}") from None
+
+
+def _check_alone(description, alone):
+    """TracerError for a description that names a file, where it may not."""
+    left = [description] if alone else []
+    while left:
+        value = left.pop()
+        if isinstance(value, dict) and "filename" in value:
+            raise TracerError(f"filename: {shown(value['filename'])}: a scene from outside may name no file")
+        left += value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
 
 
 def _toml(path):

@@ -32,10 +32,12 @@ _HARMLESS = {
 class Translation:
     """What a file says, as `description` for load_dict, and where it says it.
 
-    path: the file; included files are looked for in its folder. Raises TracerError naming file and line.
+    path: the file; included files are looked for in its folder, or refused where it is to stand alone. Raises
+    TracerError naming file and line.
     """
 
-    def __init__(self, path):
+    def __init__(self, path, alone=False):
+        self._alone = alone
         self._path, self._parameters, self._by_id, self._lines = path, {}, {}, {}
         self._settings = []
         root = parse(path)
@@ -91,6 +93,8 @@ class Translation:
     def _included(self, element, files):
         element.only("filename")
         element.alone()
+        if self._alone:
+            raise TracerError(f"{element.where}: <include>: a scene from outside may name no file")
         if files >= DEEPEST:
             raise TracerError(f"{element.where}: <include>: files include one another too deeply")
         root = parse(self._path.parent / self._text(element, element.get("filename")))

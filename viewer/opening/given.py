@@ -64,8 +64,8 @@ class Given:
 
 
 def of_log(file, scene, name=None):
-    """The Given in a log of a scene (a file or name), shown under a name. Raises TracerError."""
+    """The Given in a log of a scene (a file, a name or a Scene), shown under a name. Raises TracerError."""
     trace = pixels.without_gaps(logged_trace(str(file), scene, name))
     diagnosis = tracer.examine(trace).explained_by(about)
-    name = name or str(file)
-    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", f"{name} --scene {scene}")
+    name, of = name or str(file), scene if isinstance(scene, str) else scene.name
+    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", f"{name} --scene {of}")

@@ -1,0 +1,130 @@
+"""Files from the page: what is opened, what is refused in one clear line; nothing is left lying about."""
+
+import http.client
+import re
+import tempfile
+
+import numpy as np
+import pytest
+from suite import ROOT
+
+import tracer
+from viewer.opening.uploads import LARGEST, MOST_PIXELS, check_size, named, opened
+
+SCENES = ROOT / "scenes"
+TOML = (SCENES / "furnace.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("name", "kept"),
+    [
+        ("mine.toml", "mine.toml"),
+        ("../../etc/passwd.xml", "passwd.xml"),
+        (r"D:\work\My Scene.TOML", "My_Scene.toml"),
+        ("a" * 500 + ".png", "a" * 64 + ".png"),
+        ("…/\x00<script>.exr", "script.exr"),
+        ("..jsonl", "file.jsonl"),
+    ],
+)
+def test_of_a_name_from_outside_harmless_characters_are_kept(name, kept):
+    assert named(name) == kept
+
+
+@pytest.mark.parametrize("name", ["", "passwd", "evil.py", "a.toml.sh", "x.html", "a.svg", "toml"])
+def test_other_kinds_of_files_are_refused(name):
+    with pytest.raises(tracer.TracerError, match="none of the files that are opened"):
+        named(name)
+
+
+@pytest.mark.parametrize("ending", LARGEST)
+def test_what_is_too_large_is_refused(ending):
+    check_size(f"a{ending}", LARGEST[ending])
+    with pytest.raises(tracer.TracerError, match=r"larger than \d+ MB"):
+        check_size(f"a{ending}", LARGEST[ending] + 1)
+
+
+BITMAP = '[w]\ntype = "diffuse"\nreflectance = { type = "bitmap", filename = "/etc/passwd" }\n'
+XML = '<scene version="3.0.0">%s</scene>'
+BAD = {
+    "a.toml": [b"\xff\xfe", b"[[[", TOML.encode() + BITMAP.encode(), b"a = " + b"[" * 9000],
+    "a.xml": [
+        b"",
+        (XML % '<include filename="/etc/passwd"/>').encode(),
+        (XML % '<shape type="ply"><string name="filename" value="/etc/passwd"/></shape>').encode(),
+        b'<!DOCTYPE x [<!ENTITY a SYSTEM "file:///etc/passwd">]><scene version="3.0.0">&a;</scene>',
+    ],
+    "a.jsonl": [b"", b"{", b'{"castray": 1}\n', b"\x00" * 99],
+    "a.png": [b"", b"GIF89a", b"\x89PNG\r\n\x1a\n" + b"\x00" * 40],
+    "a.exr": [b"", b"\x76\x2f\x31\x01" + b"\x00" * 50],
+    "a.npy": [b"", b"\x93NUMPY\x01\x00"],
+    "furnace.toml": [TOML.encode()],
+}
+
+
+@pytest.mark.parametrize(("name", "data"), [(n, d) for n, several in BAD.items() for d in several])
+def test_what_will_not_do_is_said_in_one_line_that_names_no_folder(name, data, monkeypatch, tmp_path):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with pytest.raises(tracer.TracerError) as refused:
+        opened(name, data, tracer.load("furnace"))
+    said = str(refused.value)
+    assert "\n" not in said and str(tmp_path) not in said
+    assert list(tmp_path.iterdir()) == []  # nothing is left
+
+
+def test_a_picture_that_unpacks_to_too_much_is_refused_by_its_header(tmp_path):
+    from PIL import Image
+
+    Image.new("L", (MOST_PIXELS, 2)).save(tmp_path / "bomb.png")
+    with pytest.raises(tracer.TracerError, match="pixels, more than"):
+        opened("bomb.png", (tmp_path / "bomb.png").read_bytes(), None)
+
+
+def test_scenes_and_pictures_are_what_they_are_by_the_command(tmp_path):
+    upload = opened("mine.toml", TOML.encode("utf-8"), None)
+    assert upload.scene.name == "mine" and len(upload.scene.shapes) == len(tracer.load("furnace").shapes)
+    np.save(tmp_path / "p.npy", np.full((4, 6, 3), 0.5, np.float32))
+    upload = opened("p.npy", (tmp_path / "p.npy").read_bytes(), None)
+    assert upload.rival.picture.rgb.shape == (4, 6, 3) and upload.rival.name == "p.npy"
+
+
+def sent(server, name, data, **headers):
+    """(status, text) of a file that is sent."""
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+    connection.request("POST", f"/open?name={name}", data, {"Host": f"127.0.0.1:{server.port}", **headers})
+    reply = connection.getresponse()
+    return reply.status, reply.read().decode("utf-8")
+
+
+@pytest.mark.browser
+def test_the_page_opens_scenes_and_files_and_says_what_will_not_do(small, visit, tmp_path):
+    page = visit(small.address)
+    assert sent(small, "a.toml", TOML.encode())[0] == 403  # a stranger
+    jar = page.context.cookies()[0]
+    cookie = f"{jar['name']}={jar['value']}"
+    assert sent(small, "a.toml", b"", Cookie=cookie, Origin="http://evil.example")[0] == 403
+    status, text = sent(small, "a.toml", b"x" * (LARGEST[".toml"] + 1), Cookie=cookie)
+    assert status == 422 and text == "open: a.toml is larger than 1 MB"
+
+    page.get_by_test_id("open").locator("summary").click()
+    page.get_by_test_id("open-furnace").click()
+    page.wait_for_function("() => document.querySelector('[data-testid=scene]').innerText === 'furnace'")
+
+    files = {"mine.toml": TOML, "broken.toml": "[[[", "notes.txt": "hello"}
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    np.save(tmp_path / "mine.npy", np.full((8, 8, 3), 0.5, np.float32))
+    page.get_by_test_id("open").locator("summary").click()
+    field, error = page.get_by_test_id("open-file"), page.get_by_test_id("open-error")
+    for name, said in (("notes.txt", "none of the files"), ("broken.toml", "is not correct TOML")):
+        field.set_input_files(tmp_path / name)
+        page.wait_for_function(
+            "said => document.querySelector('[data-testid=open-error]')?.innerText.includes(said)", arg=said
+        )
+        assert str(tmp_path) not in error.inner_text() and not re.search(r"castray-\w+/", error.inner_text())
+    field.set_input_files(tmp_path / "mine.toml")
+    page.wait_for_function("() => document.querySelector('[data-testid=scene]').innerText === 'mine'")
+    page.get_by_test_id("open").locator("summary").click()
+    field.set_input_files(tmp_path / "mine.npy")
+    page.wait_for_function("() => document.querySelector('[data-testid=rival]')?.value === 'mine.npy'")
+    assert page.get_by_test_id("settings").inner_text().startswith("8×8")
+    assert [e for e in page.errors if "422" not in e] == []
