@@ -1,5 +1,7 @@
 """What the doctor says of a picture: in words, as JSON, and as pictures side by side."""
 
+import shlex
+
 import numpy as np
 from rich.console import Console
 from rich.table import Table
@@ -68,11 +70,12 @@ def _predicted(wall, h, opinion, album):
 
 
 def print_opinion(opinion, picture, scene, album, guessed, console=None):
-    """Hypotheses, and a table of the objects. guessed: whether the curve was not said."""
+    """Hypotheses, and a table of the objects. scene: as it was asked for. guessed: whether the curve was not
+    said."""
     console, say = console or Console(highlight=False), Speaker()
     console.width = min(console.width, 100)
     height, width = opinion.reading.rgb.shape[:2]
-    console.print(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene.name)))
+    console.print(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene)))
     for said in _how_read(opinion.reading, guessed, say):
         console.print(Text(said, style="yellow"))
     console.print()
@@ -88,6 +91,12 @@ def print_opinion(opinion, picture, scene, album, guessed, console=None):
             _print_hypothesis(h, album, say, console)
     console.print()
     _print_walls(opinion, album, say, console)
+    console.print(Text(say("pic.beside", command=beside(picture, scene))), soft_wrap=True)
+
+
+def beside(picture, scene):
+    """The command that shows a picture beside the right one; scene: as it was asked for."""
+    return f"castray view {shlex.quote(scene)} --compare {shlex.quote(str(picture))}"
 
 
 def _how_read(reading, guessed, say):
@@ -118,8 +127,7 @@ def _print_hypothesis(h, album, say, console):
 def _said(h, album, say):
     """Lines on a hypothesis; the first names it."""
     if h.factor is not None:
-        whole = h.factor > 1.5 and abs(h.factor / round(h.factor) - 1.0) < 0.03
-        yield say("pic.factor_samples" if whole else "pic.factor", factor=h.factor)
+        yield say("pic.factor_samples" if h.bugs else "pic.factor", factor=h.factor)
     else:
         yield say("pic.fits", bugs=" + ".join(h.bugs))
     for bug in h.bugs:

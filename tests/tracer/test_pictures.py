@@ -82,6 +82,7 @@ def test_a_factor_is_called_a_factor():
     for values, curves in ((3.0 * picture(), (None,)), (screen(0.5 * picture()), ("srgb",))):
         first = opinion(values, curves).hypotheses[0]
         assert first.factor == pytest.approx(3.0 if curves == (None,) else 0.5, rel=0.05)
+        assert first.bugs == (("F04",) if curves == (None,) else ())
 
 
 def test_the_curve_of_the_homework_is_found_and_undone():

@@ -86,7 +86,7 @@ def _picture(path, scene, options, gamma, output, json):
     if json:
         print_json(as_dict(opinion, path, loaded, known))
     else:
-        print_opinion(opinion, path, loaded, known, gamma is None)
+        print_opinion(opinion, path, scene, known, gamma is None)
     return 0
 
 

@@ -22,6 +22,7 @@ CLOSE = 1.5  # times the least deviation: still worth being named
 WHOLE = "castray"  # an entry that is a mixture already
 _MOST, _RENDERED = 5, 5  # hypotheses that are named; mixtures that are rendered, of each size
 _FACTOR = 0.08  # relative: a picture brighter or darker throughout by less is not called so
+_WHOLE = 0.03  # relative: so near a whole number a factor may be one of samples
 _USUAL_SPP = 16
 _DIM = 0.6  # a cell that is so bright need not be clipped
 _FEW_CELLS = 16  # fewer that are not clipped say nothing about a factor
@@ -34,8 +35,9 @@ class Hypothesis:
 
     bugs: ids of those that are there together; alike: ids whose pictures look the same; explains: share of
     what is off that they explain; deviation: mean squared, of what is left, 1 or less where it fits; spp:
-    samples per pixel at which it fits best; factor: by which all is brighter, None for mistakes. marks: what
-    else speaks for it, names with values. looks: Features that it predicts, None where it predicts none.
+    samples per pixel at which it fits best; factor: by which all is brighter, if that is all that is off.
+    marks: what else speaks for it, names with values. looks: Features that it predicts, None where it
+    predicts none.
     """
 
     bugs: tuple
@@ -176,7 +178,9 @@ def _factors(reading, seen, album, spp):
     scaled = features(reading.rgb / factor, reading.eight_bits)
     compared = cells if reading.eight_bits else None
     found, before = (fit(some, album.rights[0], spp, compared) for some in (scaled, seen))
-    return [replace(_hypothesis((), found, album.rights[0], before), factor=factor, looks=None)]
+    whole = factor > 1.5 and abs(factor / round(factor) - 1.0) < _WHOLE
+    bugs = ("F04",) if whole else ()
+    return [replace(_hypothesis(bugs, found, album.rights[0], before), factor=factor, looks=None)]
 
 
 def _unclipped(reading):
