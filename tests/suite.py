@@ -23,6 +23,17 @@ def missing(part):
     pytest.skip(f"{part} is missing; `make test` says how to get it")
 
 
+def gl():
+    """The OpenGL context of the gl engine, drawn by whomever; without one the test is skipped."""
+    from tracer.engine.gl.device import device
+    from tracer.settings import TracerError
+
+    try:
+        return device()
+    except TracerError as error:
+        return missing(f"OpenGL 4.3 ({error})")
+
+
 def castray(*words, cwd=ROOT, env=None, timeout=300):
     """`castray WORDS` as this checkout has it, run to its end in `cwd`."""
     words = [str(word) for word in words]

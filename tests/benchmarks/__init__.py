@@ -1,6 +1,6 @@
 """The sections of BENCHMARKS.md, in its order. `tests/bench.py` measures all but the race."""
 
-from benchmarks import looking, programs, sampling, scaling, stages
+from benchmarks import engines, looking, programs, sampling, scaling, stages
 from benchmarks.section import Section
 
 BENCH = (
@@ -66,6 +66,13 @@ BENCH = (
         "The unit box with many small rectangles under the ceiling, as bright together as its lamp,\n"
         "128 x 128, 16 spp, depth 8, one process.",
         scaling.lamps,
+    ),
+    Section(
+        "engines",
+        "Two engines",
+        "128 x 128, 16 spp, depth 8. Seconds are of tracing alone; how long the shader takes to be ready\n"
+        "stands beside them. Paths are the same if their first five vertices are (`tests/same_paths.py`).",
+        engines.measure,
     ),
     Section(
         "start",

@@ -7,7 +7,9 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 import same_paths
+import suite
 from cases import loaded
+from meshes import icosphere
 from suite import ROOT, castray, missing
 
 import tracer
@@ -16,20 +18,19 @@ from tracer import Settings, TracerError
 from tracer.engine.gl import device, source, tables
 from tracer.engine.gl.choice import faster
 from tracer.integrator.steps import RIGHT
+from tracer.scene import Scene
+from tracer.shape import Mesh
 from tracer.testing import z_test
 
 FLAT = ("cornell_unit", "furnace")  # nothing but flat diffuse surfaces
-OTHERS = ("cornell_glass", "mirror_corridor", "glass_slab", "sky")
+OTHERS = ("cornell", "many_lights", "cornell_glass", "mirror_corridor", "glass_slab", "sky")
 ALPHA = 1e-4  # chance that one of the comparisons below fails though all is right
 
 
 @pytest.fixture(scope="module")
 def gl():
     """OpenGL, drawn by whomever."""
-    try:
-        return device.device()
-    except TracerError as error:
-        missing(f"OpenGL 4.3 ({error})")
+    return suite.gl()
 
 
 def small(**options):
@@ -121,8 +122,44 @@ def test_every_option_means_the_same(gl, options):
     assert (ours.engine, ours.dropped, ours.complete) == ("gl", 0, True)
 
 
+def room(mesh):
+    """A closed room, of rectangles or of triangles, under a bright sky that must not be seen."""
+    description = {
+        "type": "scene",
+        "sensor": {"type": "perspective", "fov": 90, "to_world": [{"translate": [0.1, 0.05, 0.2]}]},
+        "sky": {"type": "constant", "radiance": 1000.0},
+        "grey": {"type": "diffuse", "reflectance": 0.9},
+        "room": {
+            "type": "cube",
+            "flip_normals": True,
+            "bsdf": "grey",
+            "to_world": [{"scale": [1, 0.7, 1.3]}, {"rotate": [1, 2, 3], "angle": 40}],
+        },
+    }
+    made = tracer.load_dict(description).definition
+    if mesh:
+        vertices, faces = icosphere(0)
+        walls = made.surfaces[0]._replace(shape=Mesh("room", vertices, faces, flip_normals=True))
+        made = made._replace(surfaces=(walls,), source=None)
+    return Scene(made, np.float32)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mesh", [False, True], ids=["faces", "triangles"])
+def test_no_path_leaves_a_closed_room(gl, mesh):
+    settings = small(spp=64, max_depth=20, roulette="off", strategy="bsdf")
+    picture = tracer.render(room(mesh), settings, engine="gl")
+    assert picture.rays == 20 * picture.paths and not picture.rgb.any()
+
+
+@pytest.mark.slow
+def test_a_gap_between_faces_is_seen(gl, wrong):
+    wrong("abs(x) <= quad.limits.x", "abs(x) <= 0.999 * quad.limits.x")
+    assert tracer.render(room(False), small(spp=4, strategy="bsdf"), engine="gl").rgb.any()
+
+
 REFUSED = [
-    ("smooth_ball", {}, "a shape of kind mesh"),
+    ("smooth_ball", {}, "a mesh with smooth normals"),
     ("pool", {}, "a material with a texture"),
     ("coloured_glass", {}, "shapes that are filled (interior)"),
     ("cornell_unit", {"precision": 64}, "precision 64"),

@@ -6,9 +6,9 @@ from tracer.engine.gl import tables
 from tracer.integrator.stages import refuse_unmeetable
 from tracer.integrator.steps import RIGHT, Steps
 from tracer.settings import TracerError
-from tracer.shape import Cube, Rectangle, Sphere, end
+from tracer.shape import end
 
-MOST = 64  # faces and spheres, which are asked one after the other
+MOST = 96  # triangles, faces and spheres, which are asked one after the other
 
 
 def refuse(scene, settings, steps):
@@ -45,11 +45,11 @@ def reasons(scene, settings, steps):
 
 
 def _of_shapes(scene):
-    for shape in scene.shapes:
-        if not isinstance(shape, (Rectangle, Cube, Sphere)):
-            yield f"{shape.name}, a shape of kind {type(shape).__name__.lower()}"
+    if scene.has_smooth_normals:
+        names = [shape.name for shape in scene.shapes if getattr(shape, "normals", None) is not None]
+        yield f"{names[0]}, a mesh with smooth normals"
     if len(scene.shape_of) > MOST:
-        yield f"{len(scene.shape_of)} faces and spheres (up to {MOST})"
+        yield f"{len(scene.shape_of)} triangles, faces and spheres (up to {MOST})"
         return
     shining = [k for k, surface in enumerate(scene.definition.surfaces) if surface.radiance is not None]
     faces, _ = tables.faces_of(scene)

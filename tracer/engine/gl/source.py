@@ -68,7 +68,7 @@ class Source:
         for name in ("camera", "shape/rays"):
             yield text(name)
         yield self._table("relations", "int", tables.relations(self.faces))
-        for name in ("shape/start", "shape/rectangle", "shape/sphere"):
+        for name in ("shape/start", "shape/rectangle", "shape/sphere", "shape/mesh_kernel"):
             yield text(name)
         yield from self._shapes()
         yield from self._materials()
@@ -138,6 +138,11 @@ class Source:
                 some.append(f"    meet_quad(r, near, {k}, {quad}, 0.0);")
         for k, place in zip(balls, places, strict=True):
             line = f"    meet_sphere(r, near, {k}, {vector(place)});"
+            all_.append(line)
+            if k in shadowed:
+                some.append(line)
+        for k, row in zip(*tables.triangles(self.scene, self.extent, self.faces), strict=True):
+            line = f"    meet_triangle(r, near, {k}, {struct('Triangle', row)});"
             all_.append(line)
             if k in shadowed:
                 some.append(line)

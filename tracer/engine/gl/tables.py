@@ -7,6 +7,8 @@ import numpy as np
 
 from tracer.light.faces import shining_faces
 from tracer.shape.arrange import InAWall
+from tracer.shape.cube import Cube
+from tracer.shape.mesh import Mesh
 from tracer.shape.rectangle import Rectangle, RectangleKernel
 from tracer.shape.sphere import Sphere
 from tracer.shape.start import Faces, relation
@@ -61,7 +63,7 @@ def quads(scene, extent, faces):
     numbers, kernels = [], []
     for k in sorted(range(len(scene.shapes)), key=lambda k: not shines[k]):
         shape = scene.shapes[k]
-        if isinstance(shape, Sphere):
+        if not isinstance(shape, (Rectangle, Cube)):
             continue
         for j, flat in enumerate(_as_rectangles(shape)):
             numbers.append(int(scene.first[k]) + j)
@@ -87,6 +89,23 @@ def _as_rectangles(shape):
         to_world[:3] = np.stack((0.5 * e1, 0.5 * e2, n[:, j], corner + 0.5 * (e1 + e2)), axis=1)
         made.append(Rectangle(f"{shape.name}, face {j}", to_world))
     return made
+
+
+def triangles(scene, extent, faces):
+    """Those of meshes: (their primitives, their Triangles)."""
+    numbers, parts = [], [rows(0, (), ("a", "b", "c", "plane"))]
+    for first, shape in zip(scene.first, scene.shapes, strict=True):
+        if not isinstance(shape, Mesh):
+            continue
+        kernel = shape.kernel(int(first), extent, scene.dtype, faces)
+        numbers += range(kernel.first, kernel.first + kernel.faces)
+        table = rows(kernel.faces, (), ("a", "b", "c", "plane"))
+        for corner, values, component in zip("abc", kernel.corners, kernel.n, strict=True):
+            table[corner][:, :3], table[corner][:, 3] = values.T, component
+        table["plane"][:, 0], table["plane"][:, 1] = kernel.turn, kernel.margin
+        table["plane"][:, 2] = faces.reach[kernel.first : kernel.first + kernel.faces]
+        parts.append(table)
+    return numbers, np.concatenate(parts)
 
 
 def spheres(scene):
