@@ -287,3 +287,18 @@ def test_a_lamp_and_the_point_on_it_are_as_far_away_but_for_some_ulps():
             elif there and there.blocker:
                 assert there.blocker_distance < there.aim.distance
     assert met
+
+
+def test_another_tracer_is_held_to_what_it_recorded_only():
+    """It has random numbers of its own, and what it left out is no number."""
+    record, scene = recorded("cornell_unit", 12, 20), tracer.load("cornell_unit")
+    for path in record.paths:
+        for event in path.events:
+            if "u" in event.values and event.kind.name != "roulette":
+                event.values["u"] = np.full(3, np.nan, np.float32)
+            if event.kind.name == "bounce":
+                event.values["pdf"] = np.float32(np.nan)
+    assert {r.key for r in why(record, scene) if r.strange} >= {"redone.direction", "unfit.pdf"}
+    assert not [r.key for r in why(record, scene, own=False) if r.strange]
+    seen = lens.over(scene.at(record.settings), None, record, 0, 2)
+    assert seen.counts == () and judged(seen, Speaker("en"))["judged"] == "dim"

@@ -20,7 +20,7 @@ TEMPLATE = """
 <div v-if="vertex" class="vertex" data-testid="vertex"><p v-if="!vertex.lens" class="dim">{{ w.vertex_none }}</p>
   <template v-else><p data-testid="vertex-at">{{ vertex.at }}</p>
     <castray-lens :lens="vertex.lens" :label="w.vertex_lens" @go="trigger('at', $event)"></castray-lens>
-    <div class="drawn-bounces"><castray-cells :lens="vertex.lens" :label="vertex.verdict"></castray-cells><div><p class="dim">{{ vertex.drawn }}</p>
+    <div class="drawn-bounces"><castray-cells :lens="vertex.lens" :label="vertex.verdict"></castray-cells><div><p v-if="vertex.drawn" class="dim">{{ vertex.drawn }}</p>
       <p :class="vertex.judged" data-testid="lens-verdict">{{ vertex.verdict }}</p><p v-for="lobe in vertex.lobes" :key="lobe">{{ lobe }}</p></div></div>
     <ul class="dots" :aria-label="vertex.tried"><li v-for="k in ['bounce', 'lit', 'blocked', 'idle']" :key="k"><i :class="k"></i>{{ w['dot_' + k] }}</li></ul>
     <p class="dim" data-testid="lens-tried" :data-exact="JSON.stringify(vertex.tried_exact)">{{ vertex.tried }}</p>
@@ -40,7 +40,8 @@ TEMPLATE = """
 def show(session, say):
     """The lens and the microscope at the event; no lens before the first surface."""
     scene, path = session.scene.at(session.settings), session.cursor.path
-    lens = lenses.over(scene, planted(session.settings), session.record, path, session.cursor.event)
+    steps = None if session.given else planted(session.settings)
+    lens = lenses.over(scene, steps, session.record, path, session.cursor.event)
     if lens is None:
         return {"lens": None}
     hit = last_hit(session.path, session.cursor.event)
@@ -48,7 +49,7 @@ def show(session, say):
     return {
         "at": say("lens.at", **names),
         "lens": _drawn(lens, say),
-        "drawn": say("lens.counts", draws=DRAWS),
+        "drawn": say("lens.counts", draws=DRAWS) if lens.counts else "",
         **judged(lens, say),
         "lobes": lobes(lens, say),
         "tried": tried(lens, say),

@@ -68,22 +68,25 @@ class Lens:
 
 def over(scene, steps, record, path, event):
     """The Lens over the vertex of an event, None before the first. scene: at the record's settings; steps:
-    those of its tracer."""
+    those of its tracer, None for one that cannot be asked."""
     there = [place for place in places(record) if place.hit]
     here = next((place for place in there if place.at == (path, event)), None)
     if here is None:
         return None
     with np.errstate(all="ignore"):
         vertex = Vertex(scene, here.hit)
-        shown, sample = draws.drawn(vertex, steps)
+        drawn, counts = np.zeros((3, 0)), ()
+        if steps is not None:
+            shown, sample = draws.drawn(vertex, steps)
+            drawn, counts = shown[:, sample.pdf > 0.0], tuple(draws.counted(vertex, shown, sample))
         return Lens(
             vertex.sides,
             _vectors(vertex, here.event),
             np.stack([vertex.sheet(side) for side in vertex.sides]),
             _plane(vertex),
             tuple(_tried(vertex, here, there)),
-            shown[:, sample.pdf > 0.0],
-            tuple(draws.counted(vertex, shown, sample)),
+            drawn,
+            counts,
             _terms(vertex, here.event),
         )
 

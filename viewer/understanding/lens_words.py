@@ -14,6 +14,8 @@ KINDS = ("bounce", "lit", "blocked", "idle")
 def judged(lens, say):
     """Whether bounces go where the density says: {judged: good, warning or dim, verdict: words}."""
     worst = lens.worst
+    if not lens.counts:
+        return {"judged": "dim", "verdict": say("lens.foreign")}
     if worst is None:
         return {"judged": "dim", "verdict": say("lens.sharp")}
     off = short(round(abs(worst.off), 2))

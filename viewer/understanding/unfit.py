@@ -14,8 +14,9 @@ OFF = 1e-3  # relative difference from its own formula from which on a result do
 FAR = 0.05  # from the material, whose f and p may change a lot within the rounding of a direction
 
 
-def reasons(record, scene):
-    """Reasons of what does not fit, alike ones together. scene: at the record's settings."""
+def reasons(record, scene, own=True):
+    """Reasons of what does not fit, alike ones together. scene: at the record's settings; own: whether
+    castray traced it, so that what is no number came out so and is not just left out."""
     there = list(places(record, *KINDS))
     of = {kind: sum(place.event.kind.name == kind for place in there) for kind in KINDS}
     found = [("result", place, *both) for place in there if (both := _result(record, place)) is not None]
@@ -23,6 +24,9 @@ def reasons(record, scene):
     found += [("direction", place, place.event.values["wi"], np.nan) for place in there if _astray(place)]
     groups = {}
     for what, place, recorded, right in found:
+        known = np.isfinite(recorded).all() and (what != "result" or np.isfinite(right).all())
+        if not own and not known:
+            continue  # something was not recorded
         groups.setdefault((what, place.event.kind.name), []).append((place, recorded, right))
     return [_reason(what, kind, some, of, scene) for (what, kind), some in groups.items()]
 

@@ -14,12 +14,16 @@ MAKERS = ("bounce", "roulette")  # of a throughput
 GROWN = 4.0  # throughput from which on its growth is told
 
 
-def why(record, scene):
-    """The Reasons of a recorded pixel: what it is, what is strange about it, which parts it has, and more."""
+def why(record, scene, own=True):
+    """The Reasons of a recorded pixel: what it is, what is strange about it, which parts it has, and more.
+
+    own: whether castray traced it. Another tracer uses its random numbers and its rounding as it likes, and
+    may leave things out: it is held to what it recorded only.
+    """
     scene = scene.at(record.settings)
     ranked = [
-        *unfit.reasons(record, scene),
-        *redone.reasons(record, scene),
+        *unfit.reasons(record, scene, own),
+        *(redone.reasons(record, scene) if own else ()),
         *_counted(record),
         *samples.reasons(record, scene),
         *ends.reasons(record, scene),
@@ -80,6 +84,10 @@ def _counted(record):
     for bar in waterfall(record):
         if bar.kind == FILM:
             path, step = bar.place
+            if np.allclose(
+                record.paths[path].radiance, carried(record.paths[path]), rtol=unfit.OFF, atol=0.0
+            ):
+                continue  # added up in another order
             counted = spelled(record.paths[path].radiance)
             values = {"carried": spelled(carried(record.paths[path])), "counted": counted}
             yield Reason("film", bar.events, len(record.paths), (path, step), values, float(bar.events))
