@@ -26,11 +26,17 @@ def opinion_of(path, scene, options=None, gamma=None, output=None):
     spp = _spp(path, options)
     if output is not None:
         check_path(output)
-    values, eight_bits, curves = opened(path, gamma)
-    loaded = scene_of(scene, options)
+    given, loaded = opened(path, gamma), scene_of(scene, options)
     with watched(Speaker()("pic.rendering")) as progress:
-        known = album(loaded, suited(loaded, ZOO.values()), progress)
-    return judged(values, eight_bits, curves, loaded, known, mixtures(loaded, ZOO), spp), loaded, known
+        opinion, known = opinion_on(given, loaded, spp, progress)
+    return opinion, loaded, known
+
+
+def opinion_on(given, scene, spp=None, progress=None):
+    """The Opinion on what `opened` gives of a picture of a scene, and the Album it was compared with."""
+    known = album(scene, suited(scene, ZOO.values()), progress)
+    values, eight_bits, curves = given
+    return judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO), spp), known
 
 
 def _spp(path, options):

@@ -120,11 +120,11 @@ def _print_nothing(opinion, say, console):
 
 
 def _print_hypothesis(h, album, say, console):
-    for k, said in enumerate(_said(h, album, say)):
+    for k, said in enumerate(said_of(h, album, say)):
         console.print(Text(said if k == 0 else f"  {said}", style="bold" if k == 0 else ""))
 
 
-def _said(h, album, say):
+def said_of(h, album, say):
     """Lines on a hypothesis; the first names it."""
     if h.factor is not None:
         yield say("pic.factor_samples" if h.bugs else "pic.factor", factor=h.factor)

@@ -1,10 +1,11 @@
 """The doctor: which laws the picture's paths break, the first cause first, and the event that proves it."""
 
 from lessons.course import lesson
-from viewer import examining
+from viewer import examining, picture_examining
 from viewer.doctor_report import bug_title, bugs, chance, counted, equation, place
 from viewer.examining import Chart, Examiner
 from viewer.panels.panel import Panel
+from viewer.picture_examining import Guesser
 from viewer.worker import Worker
 
 TEMPLATE = """
@@ -32,14 +33,24 @@ TEMPLATE = """
   <details v-if="doctor.untestable.length" data-testid="doctor-untestable" :data-rules="doctor.untestable.length"><summary>{{ doctor.untestable_head }}</summary>
     <table class="rows"><thead><tr><th scope="col">{{ w.exam_rule }}</th><th scope="col">{{ w.exam_missing }}</th></tr></thead><tbody>
       <tr v-for="r in doctor.untestable" :key="r.rule" :title="r.law"><td>{{ r.title }}</td><td class="dim">{{ r.missing }}</td></tr></tbody></table></details>
+  <section v-if="doctor.picture" class="finding" data-testid="doctor-picture"><div class="between"><p>{{ doctor.picture.head }}</p>
+    <button data-testid="doctor-guess" :disabled="doctor.picture.busy" @click="trigger('doctor_guess')"><span v-if="doctor.picture.busy" class="busy" aria-hidden="true"></span>{{ w.exam_guess }}</button></div>
+    <p v-if="doctor.picture.error" class="warning" role="alert">{{ doctor.picture.error }}</p>
+    <p v-if="doctor.picture.verdict" :class="doctor.picture.good ? 'good' : 'warning'" data-testid="doctor-guessed">{{ doctor.picture.verdict }}</p>
+    <ul v-if="doctor.picture.hypotheses.length" class="findings"><li v-for="(h, k) in doctor.picture.hypotheses" :key="k" :data-testid="'hypothesis-' + k"><b>{{ h[0] }}</b><p v-for="line in h.slice(1)" :key="line">{{ line }}</p></li></ul></section>
 </div>
 """
 
 
 def calls(window):
     """What this panel's page may ask for."""
-    examiner = Examiner(window, Worker(window.back))
-    return {"doctor_examine": examiner.examine, "doctor_go": examiner.go, "doctor_where": examiner.where}
+    examiner, guesser = Examiner(window, Worker(window.back)), Guesser(window, Worker(window.back))
+    return {
+        "doctor_examine": examiner.examine,
+        "doctor_go": examiner.go,
+        "doctor_where": examiner.where,
+        "doctor_guess": guesser.guess,
+    }
 
 
 def show(session, say):
@@ -48,6 +59,7 @@ def show(session, say):
     diagnosis = chart.diagnosis
     shown = {"busy": chart.busy, "status": _status(session, chart, say), "verdict": "", "good": False}
     shown["error"] = say.error(str(chart.error)) if chart.error else ""
+    shown["picture"] = picture_examining.shown(session, say)
     findings = list(enumerate(diagnosis.findings)) if diagnosis else []
     shown["causes"] = [_cause(k, f, chart, say) for k, f in findings if f.follows is None]
     shown["following"] = [_following(k, f, say) for k, f in findings if f.follows is not None]

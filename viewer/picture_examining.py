@@ -1,0 +1,92 @@
+"""The doctor's hypotheses in the viewer, from the file that the picture is compared with."""
+
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Any
+
+from tracer.doctor.picture import opened
+from tracer.settings import TracerError
+from viewer.comparing.comparer import desk_of
+from viewer.picture_doctor import is_picture, opinion_on
+from viewer.picture_report import said_of
+from viewer.worker import Stopped
+
+
+@dataclass
+class Guess:
+    """What the doctor said of a picture's file."""
+
+    name: str
+    busy: bool = False
+    opinion: Any = None
+    album: Any = None
+    error: TracerError | None = None
+
+    def close(self):
+        """There is nothing to let go of."""
+
+
+def file_of(session):
+    """The picture's file that a session compares with; None if it compares with none."""
+    desk = desk_of(session)
+    found = desk is not None and not desk.rival.traced and is_picture(desk.rival.name)
+    return desk.rival.name if found else None
+
+
+def guess_of(session):
+    """The Guess at the file that a session compares with; None if there is none."""
+    name, guess = file_of(session), session.desk.get("guess")
+    if name is not None and (guess is None or guess.name != name):
+        guess = session.desk["guess"] = Guess(name)
+    return guess if name is not None else None
+
+
+class Guesser:
+    """What the page may ask. worker: does what takes long."""
+
+    def __init__(self, window, worker):
+        self.window, self.session, self.worker = window, window.session, worker
+
+    def guess(self):
+        """Compare the file with the pictures of the zoo."""
+        session, guess = self.session, guess_of(self.session)
+        if guess is None or guess.busy:
+            return
+        guess.busy, guess.error = True, None
+        scene = session.scene
+
+        def job():
+            if session.desk.get("guess") is not guess:
+                raise Stopped
+            return opinion_on(opened(guess.name), scene)
+
+        def done(found):
+            guess.busy, (guess.opinion, guess.album) = False, found
+            self.window.show("doctor")
+
+        def failed(error):
+            guess.busy, guess.error = False, error
+            self.window.show("doctor")
+
+        self.worker.do(job, done, failed)
+        self.window.show("doctor")
+
+
+def shown(session, say):
+    """What the panel shows of it; None where no picture's file is compared with."""
+    guess = guess_of(session)
+    if guess is None:
+        return None
+    told = {
+        "head": say("exam.picture", name=PurePath(guess.name).name),
+        "busy": guess.busy,
+        "verdict": "",
+        "hypotheses": [],
+    }
+    told["error"] = say.error(str(guess.error)) if guess.error else ""
+    if guess.opinion is not None:
+        found = guess.opinion.hypotheses
+        words = "pic.right" if guess.opinion.is_right else "pic.hypotheses" if found else "pic.nothing"
+        told["verdict"], told["good"] = say(words), guess.opinion.is_right
+        told["hypotheses"] = [[*said_of(h, guess.album, say)] for h in found]
+    return told
