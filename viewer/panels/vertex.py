@@ -65,13 +65,13 @@ def _drawn(lens, say):
     """What the discs show: sheets as bytes 0 to 255 by the root of their share of the largest value."""
     discs = []
     for side, sheets in zip(lens.sides, lens.sheets, strict=True):
-        rows = {"side": say("lens.above" if side > 0 else "lens.below"), "sheets": []}
+        rows = {"sheets": []}
+        where = say("lens.above" if side > 0 else "lens.below") if len(lens.sides) > 1 else ""
         for name, sheet in zip("fp", sheets, strict=True):
             most = float(np.nanmax(sheet, initial=0.0))
             bytes_ = np.round(255 * np.sqrt(np.nan_to_num(sheet) / (most or 1.0))).astype(int)
-            rows["sheets"].append(
-                {"title": say(f"lens.{name}", most=short(most)), "values": bytes_.ravel().tolist()}
-            )
+            title = say(f"lens.{name}", most=short(most)) if most else say(f"lens.{name}.dirac")
+            rows["sheets"].append({"title": title + where, "values": bytes_.ravel().tolist()})
         here = lens.drawn[:, side * lens.drawn[2] > 0][:, :FAINT]
         rows["drawn"] = np.round(on_disc(here), 3).T.tolist()
         rows["off"] = [

@@ -76,7 +76,6 @@
           });
           g.font = "11px system-ui, sans-serif"; g.fillStyle = "#9aa4b5"; g.textAlign = "center";
           one.sheets.forEach((sheet, j) => g.fillText(sheet.title, (j + 0.5) * step, k * row + 2 * r + 20, step - 4));
-          if (props.lens.discs.length > 1) { g.textAlign = "left"; g.fillText(one.side, 0, k * row + 12, step); }
         });
       }
       const canvas = drawing(paint, () => props.lens);
