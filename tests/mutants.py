@@ -114,10 +114,7 @@ MUTANTS = {
     "unit-direction": ("room", _scaled("bounce.wi", 1.001)),
     "chain": ("room", _turned("bounce.wi")),
     "escape-direction": ("sky", _turned("escape.d")),
-    "own-surface": (
-        "room",
-        lambda t: changed(t, "hit.primitive", lambda primitive: np.full_like(primitive, 2)),
-    ),
+    "own-surface": ("room", lambda t: _stuck(t)),
     "first-surface": ("room", lambda t: _behind(t)),
     "escape-free": ("room", lambda t: _fled(t)),
     "on-surface": ("room", lambda t: changed(t, "hit.p", lambda p: p * p.dtype.type(0.98))),
@@ -178,6 +175,17 @@ MUTANTS = {
     "domain": ("room", _scaled("light.contribution", -1.0)),
     "finite": ("room", lambda t: changed(t, "bounce.f", lambda f: f * f.dtype.type(np.nan))),
 }
+
+
+def _stuck(trace):
+    """Vertices that are the ones before again."""
+    hits = trace.tables["hit"]
+    later = np.flatnonzero(hits.path[1:] == hits.path[:-1]) + 1
+    for name in ("p", "primitive"):
+        column = hits[name].copy()
+        column[..., later] = hits[name][..., later - 1]
+        trace = with_column(trace, f"hit.{name}", column)
+    return trace
 
 
 def _behind(trace):

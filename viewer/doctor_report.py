@@ -1,5 +1,8 @@
 """A diagnosis as text: the first finding in full, the others in short, and what every rule says."""
 
+import re
+from collections import Counter
+
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -24,6 +27,8 @@ def print_diagnosis(diagnosis, trace, console=None):
         console.print(Text(say("doctor.unjudged"), style="bold yellow"))
     elif not diagnosis.findings:
         console.print(Text(say("doctor.nothing"), style="bold green"))
+        if more := lacking(diagnosis.rules):
+            console.print(Text(say("doctor.more", names=say.listed(*more)), style="yellow"))
     for number, finding in enumerate(diagnosis.findings):
         if number == 0:
             _print_first(finding, say, console)
@@ -31,6 +36,17 @@ def print_diagnosis(diagnosis, trace, console=None):
             _print_other(finding, say, console)
     console.print()
     _print_rules(diagnosis.rules, say, console)
+
+
+def lacking(verdicts, most=4):
+    """Names of the few columns of a log whose lack leaves most laws untested, the first the most."""
+    names = Counter(
+        name
+        for verdict in verdicts
+        if verdict.state == "not_testable" and "." in verdict.missing
+        for name in re.findall(r"^\w+\.\w+(?=[,]|$)|(?<=, )\w+\.\w+", verdict.missing)
+    )
+    return [name for name, count in names.most_common(most) if count > 1]
 
 
 def _print_first(finding, say, console):

@@ -168,6 +168,18 @@ class Evidence:
         """The same of each ESCAPE."""
         return self._arrivals("escape")
 
+    @cached_property
+    def lies_on_surface(self):
+        """Whether each HIT lies on its primitive, (E,)."""
+        return self.brute.off_surface(self("hit.p"), self("hit.primitive")) <= 64.0 * self.off_point
+
+    def starts_on_surface(self, kind):
+        """Whether the rays that lead to events of a kind start on the surface that they are said to, (E,)."""
+        vertex = self.before(kind, "hit")
+        found = vertex < 0
+        found[~found] = self.lies_on_surface[vertex[~found]]
+        return found
+
     def materials(self, kind):
         """Number of the material at each event's vertex, (E,)."""
         return self.scene.bsdf_of.take(self.at_vertex(kind, "primitive"))

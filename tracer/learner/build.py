@@ -168,7 +168,7 @@ class Builder:
         for lights in (chosen, used):
             tables = {kind.name: _table(kind, rows[kind.name]) for kind in KINDS}
             tables[LIGHT.name] = _table(LIGHT, lights)
-            yield Trace(self.scene, settings, paths, tables, float(np.finfo(np.float64).eps))
+            yield trace_of(self.scene, settings, paths, tables)
 
     def _declared(self):
         """The settings, with the survival probability that was used if it is one, and the kind of loop."""
@@ -187,6 +187,12 @@ class Builder:
                 if outcome == goes_on:
                     fields.update(survived=True, beta=fields["beta"] / fields["probability"])
                     self._rows[END.name][path][-1]["reason"] = self._paths[path][5] = _REASON("absorbed")
+
+
+def trace_of(scene, settings, paths, tables):
+    """The Trace; a survival probability that is not one number is free."""
+    free = frozenset({"roulette"} if settings.roulette == "auto" else ())
+    return Trace(scene, settings, paths, tables, float(np.finfo(np.float64).eps), free=free)
 
 
 class _Terms:

@@ -12,9 +12,10 @@ import numpy as np
 
 import tracer.learner.child as child
 from tracer.events import KINDS
+from tracer.learner.build import trace_of
 from tracer.scene_file.load import load
 from tracer.settings import Settings, TracerError
-from tracer.trace.trace import Table, Trace
+from tracer.trace.trace import Table
 
 ASKED_EVERY = 0.2  # seconds
 
@@ -87,4 +88,4 @@ def _read(name, scene, settings):
         own = {key.partition(".")[2]: c for key, c in columns.items() if key.startswith(f"{kind}.")}
         tables[kind] = Table(columns[f"{kind}/path"], columns[f"{kind}/step"], columns[f"{kind}/depth"], own)
     paths = {key.partition(".")[2]: c for key, c in columns.items() if key.startswith("path.")}
-    return Trace(scene, settings, paths, tables, float(np.finfo(np.float64).eps))
+    return trace_of(scene, settings, paths, tables)

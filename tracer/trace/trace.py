@@ -42,6 +42,7 @@ class Trace:
     "kind.field", that were not recorded but worked out from others and the scene. assumed: those of them that
     were worked out by the very law about them, so that they cannot break it.
     culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
+    free: settings that the program chose otherwise at every vertex, so that no law says what they have to be.
     left_out: how many more paths there were, which are not here for what they did, so that those that are
     here are no fair sample.
     """
@@ -55,6 +56,7 @@ class Trace:
     assumed: frozenset = frozenset()
     culled: bool = False
     left_out: int = 0
+    free: frozenset = frozenset()
 
     @property
     def size(self):

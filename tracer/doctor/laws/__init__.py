@@ -29,9 +29,9 @@ _FAMILIES = (
 )
 _ORDER = (
     "camera-pixel", "camera-ray", "camera-start",
-    "unit-normal", "normal", "shading-normal", "unit-light", "unit-direction",
+    "on-surface", "unit-normal", "normal", "shading-normal", "unit-light", "unit-direction",
     "chain", "escape-direction", "own-surface",
-    "first-surface", "escape-free", "on-surface", "distance", "wo",
+    "first-surface", "escape-free", "distance", "wo",
     "side", "depth",
     "transmittance", "light-transmittance",
     "emission", "environment",

@@ -51,7 +51,8 @@ def own_surface(evidence):
     """I12: which HITs lie on the very surface that their ray starts on."""
     o, d, source = evidence.arrivals
     primitive, brute = evidence("hit.primitive"), evidence.brute
-    rows = np.flatnonzero((primitive == source) & sound(evidence))
+    placed = evidence.starts_on_surface("hit") & evidence.lies_on_surface
+    rows = np.flatnonzero((primitive == source) & sound(evidence) & placed)
     bad = np.ones(rows.size, bool)
     chord = np.zeros(rows.size)
     ball = brute.is_sphere.take(primitive[rows])
@@ -68,6 +69,7 @@ def own_surface(evidence):
     everyone = np.arange(primitive.size)
     wrong, doubt = np.zeros(everyone.size, bool), np.zeros(everyone.size, bool)
     wrong[rows], doubt[rows] = bad, unsure
+    doubt |= ~placed
     return Outcome("hit", everyone, wrong, doubt, primitive, np.full(primitive.size, -1), "primitive")
 
 
@@ -112,7 +114,7 @@ def first_surface(evidence):
 def nothing_met(evidence):
     """I12: which ESCAPEs leave through a surface."""
     o, d, source = evidence.departures
-    good = np.abs(length(d) - 1.0) <= 4.0 * evidence.off_unit
+    good = (np.abs(length(d) - 1.0) <= 4.0 * evidence.off_unit) & evidence.starts_on_surface("escape")
     sure, may, which, off = _met(evidence, (o, d, source), good)
     bad = np.isfinite(sure) & good
     unsure = ~good | (~bad & np.isfinite(may))

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.doctor.compare import judged
 from tracer.doctor.laws.chain import carried
-from tracer.doctor.rule import Outcome, Rule
+from tracer.doctor.rule import NotRecordedError, Outcome, Rule
 from tracer.integrator.steps import AUTO_DEPTH, AUTO_MOST
 
 
@@ -21,6 +21,11 @@ def probability(evidence):
     """I9: the probability is the one that is declared."""
     settings, depth = evidence.settings, evidence.trace.tables["roulette"].depth
     rows = np.arange(depth.size)
+    if "roulette" in evidence.trace.free:
+        q = evidence("roulette.probability")
+        return Outcome(
+            "roulette", rows, ~(q > 0.0), np.zeros(q.shape, bool), q, np.ones_like(q), "probability"
+        )
     inputs = {"beta": (carried(evidence, "roulette"), 0.0), "depth": (depth, 0.0)}
     recorded = evidence("roulette.probability")
     return judged(
@@ -36,6 +41,8 @@ def probability(evidence):
 
 def played(evidence):
     """I9: roulette is played where its probability is below 1, and there only."""
+    if "roulette" in evidence.trace.free:
+        raise NotRecordedError("one probability, declared")
     depth = evidence.trace.tables["bounce"].depth
     q = chance(evidence.settings, evidence("bounce.beta"), depth)
     row = evidence.after("bounce", "roulette")

@@ -58,6 +58,8 @@ class Case:
 
     def is_(self, predicted):
         """Whether nearly all recorded numbers are the predicted ones, and these are not the right ones."""
+        if self.right is not None and self.matches(predicted, self.right) >= SHARE:
+            return False
         return self.matches(predicted) >= SHARE
 
     def times(self, factor):

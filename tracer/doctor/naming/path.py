@@ -74,6 +74,13 @@ def emission(case):
     )
 
 
+def on_surface(case):
+    """Vertices that do not lie on their surfaces."""
+    scene = case.evidence.scene
+    names = sorted({scene.shapes[k].name for k in np.unique(scene.shape_of.take(case["primitive"]))})
+    return Clue(None, f"on {', '.join(names)}, by up to {case.recorded.max():.2g}")
+
+
 def chain(case):
     """Vertices beside their rays."""
     evidence, rows = case.evidence, case.rows
@@ -114,7 +121,8 @@ def _never_met(case):
     evidence = case.evidence
     through = np.unique(case.outcome.facts["met"][case.outcome.wrong])
     flat = np.array([np.ptp(shape.outline(), axis=1).min() for shape in evidence.scene.shapes])
-    met = np.bincount(evidence("hit.primitive"), minlength=evidence.scene.shape_of.size)
+    primitive = evidence("hit.primitive")
+    met = np.bincount(primitive[primitive >= 0], minlength=evidence.scene.shape_of.size)
     if met[through].any():
         return None
     names = ", ".join(sorted({evidence.scene.shapes[k].name for k in evidence.scene.shape_of[through]}))
@@ -311,6 +319,7 @@ NAMES = {
     "emission-weight": weight,
     "environment-weight": weight,
     "emission": emission,
+    "on-surface": on_surface,
     "chain": chain,
     "first-surface": first_surface,
     "normal": normal,

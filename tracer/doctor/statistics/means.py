@@ -96,6 +96,8 @@ def means(evidence):
         ratio = ours.whole.sum() / max(theirs.whole.sum(), 1e-300)
         words = f"the picture is {ratio:.4g} times as bright as it should be"
         yield Cell(balanced(ours.whole - theirs.whole), words, "path", rows, {"ratio": ratio, "way": "all"})
+        if "roulette" in evidence.trace.free:
+            return
         ratio = ours.vertices.sum() / max(theirs.vertices.sum(), 1e-300)
         words = f"paths have {ratio:.4g} times as many vertices as they should"
         yield Cell(
@@ -105,6 +107,8 @@ def means(evidence):
 
 def variances(evidence):
     """I18: the spread of a pixel's samples."""
+    if "roulette" in evidence.trace.free:
+        raise NotRecordedError("one survival probability, declared")
     ours, theirs, spp = tallies(evidence)
     if spp < 2:
         return

@@ -67,22 +67,23 @@ class Lights(Stages):
         return something & (np.abs(dot(nq, q - p)) <= 4.0 * self._off())
 
     def _as_near_as_points_say(self, found, direct, rows):
-        """A density that was worked out from two points is as uncertain as they are, which is much where one
-        lies near the plane of the other's surface. Within that it is the one that the logged term has."""
+        """A density, or a cosine, that was worked out from two points is as uncertain as they are, which is
+        much where one lies near the plane of the other's surface. Within that it is the logged term's."""
         parts = ("f", "Le", "cos", "w", "pdf", "visible", "q", "wi", "nq")
         if "light.pdf" not in self.rebuilt or any(found.get(name) is None for name in parts):
             return
+        gap = found["q"] - self.places.p[:, rows]
+        height, above = (np.abs(dot(n, gap)) for n in (found["nq"], self.places.n[:, rows]))
         off = 32.0 * self._off()
-        height = np.abs(dot(found["nq"], found["q"] - self.places.p[:, rows]))
-        if "light.cos" in self.rebuilt:
-            height = np.minimum(
-                height, np.abs(dot(self.places.n[:, rows], found["q"] - self.places.p[:, rows]))
-            )
         with np.errstate(all="ignore"):
             term = found["f"] * found["Le"] * found["cos"] * found["w"] * found["visible"]
             implied = term.max(axis=0) / direct.max(axis=0)
-            near = (np.abs(implied / found["pdf"] - 1.0) <= 2.0 * off / height) | (height <= off / 8.0)
-        found["pdf"] = np.where(near & np.isfinite(implied), implied, found["pdf"])
+            ratio = np.where(np.isfinite(implied), implied / found["pdf"], np.nan)
+            apart = np.where(np.isnan(ratio), np.inf, np.abs(ratio - 1.0))
+            near = np.isfinite(implied) & ((apart <= 2.0 * off / height) | (height <= off / 8.0))
+            low = ~near & (apart <= 2.0 * off / above) & ("light.cos" in self.rebuilt)
+            found["pdf"] = np.where(near, implied, found["pdf"])
+            found["cos"] = np.where(low, found["cos"] / ratio, found["cos"])
 
     def _beneath(self, found, rows):
         """Below the horizon the cosine is its size, and where nothing could arrive nothing is seen: others

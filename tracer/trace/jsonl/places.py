@@ -46,7 +46,9 @@ def placed(chain, scene):
         p, asked = _where_next_begins(chain, scene, o, d, p, primitive)
         hit[asked] = unclear[asked] = True
     else:
-        hit = logged
+        lamps = _lamps_left_early(chain, scene, o, d, t, primitive)
+        p[:, lamps] = o[:, lamps] + t[lamps] * d[:, lamps]
+        hit = logged | np.isin(np.arange(t.size), lamps)
         near = geometry.NEAR * geometry.scale(scene)
         gap = np.sqrt(((o + np.where(np.isfinite(t), t, 0.0) * d - p) ** 2).sum(axis=0))
         asked = np.flatnonzero(hit & ~(gap <= 0.01 * near))
@@ -71,6 +73,31 @@ def placed(chain, scene):
         np.copyto(ng, n, where=np.isnan(ng))
     through = _through(scene, o, d, np.where(hit, p, np.inf), first, met_first)
     return Places(o, d, hit, p, wo, n, ng, primitive, through, unclear)
+
+
+def _lamps_left_early(chain, scene, o, d, t, primitive):
+    """Rows of calls that return before they say what they met, where the scene has the bright side of a lamp:
+    many programs look at that first."""
+    rows = np.flatnonzero(~chain.given("hit.p") & chain.last & np.isfinite(t))
+    rows = rows[scene.light_of.take(primitive[rows]) >= 0]
+    ng, _ = geometry.surfaces(scene, o[:, rows] + t[rows] * d[:, rows], d[:, rows], primitive[rows])
+    rows = rows[(ng * d[:, rows]).sum(axis=0) < 0.0]
+    if rows.size:
+        chain.notes.append(
+            f"{rows.size} calls do not say what they met, where there is a lamp: it is taken for met"
+        )
+    return rows
+
+
+def put_somewhere(places, scene):
+    """Vertices on no surface get the one that their ray meets: the laws say that they do not lie on it."""
+    lost = np.flatnonzero(places.hit & (places.primitive < 0))
+    o, d = places.o[:, lost], places.d[:, lost]
+    _, primitive, _ = geometry.onward(scene, o, d)
+    places.primitive[lost] = np.maximum(primitive, 0)
+    ng, n = geometry.surfaces(scene, places.p[:, lost], d, places.primitive[lost])
+    for mine, there in ((places.ng, ng), (places.n, n)):
+        mine[:, lost] = np.where(np.isnan(mine[:, lost]), there, mine[:, lost])
 
 
 def _where_next_begins(chain, scene, o, d, p, primitive):

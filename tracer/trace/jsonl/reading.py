@@ -37,6 +37,7 @@ def read_log(path, scene=None, options=None):
         read.header.options.update(options)
     read_off = _read_off(read)
     settings = header.settings_of(read.header, read_off)
+    free = _free(read, read_off)
     settings, without = _without_lights(read, settings)
     notes = _notes(read) + without
     if scene is None:
@@ -48,6 +49,7 @@ def read_log(path, scene=None, options=None):
     conventions.convert(read.columns, read.header, exact)
     make = _of_calls if None in read.columns else _of_events
     trace, more = make(read, scene.at(settings), exact, settings)
+    trace = replace(trace, free=free)
     if not trace.size:
         raise TracerError(f"{path}: no path is whole; {'; '.join(more)}")
     return Log(read, trace, tuple(notes + more), read_off)
@@ -108,6 +110,13 @@ def _read_off(read):
     return {name: value for name, value in found.items() if name not in read.header.options}
 
 
+def _free(read, read_off):
+    """Settings that are neither declared nor one number: any lawful one is in order, vertex by vertex."""
+    chosen = _column(read, "roulette", "probability").size > 0
+    declared = "roulette" in read_off or read.header.options.get("roulette") is not None
+    return frozenset({"roulette"} if chosen and not declared else ())
+
+
 def _of_calls(read, scene, exact, settings):
     chain = calls.chained(read.columns.pop(None))
     if not chain.path.size:
@@ -118,6 +127,7 @@ def _of_calls(read, scene, exact, settings):
         where.n *= np.where((where.n * real).sum(axis=0) < 0.0, -1.0, 1.0)
         where.ng = np.where(np.isfinite(real), real, where.ng)
     notes = list(conventions.complaints_of_scene(chain, where, exact, settings, read.header))
+    places.put_somewhere(where, exact)
     chain, where = places.culled(chain, where)
     chain, where = peek.peeked(chain, where, exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
@@ -258,6 +268,6 @@ def _of_tables(scene, tables):
         return []
     p, d = hits["p"].astype(np.float64), -hits["wo"].astype(np.float64)
     primitive = geometry.primitives_at(scene, p - d, d, p)
-    hits.columns["primitive"] = primitive.astype(np.int32)
+    hits.columns["primitive"] = np.maximum(primitive, 0).astype(np.int32)
     nowhere = int(np.count_nonzero(primitive < 0))
     return [f"{nowhere} vertices lie on no surface of {scene.name}"] if nowhere else []

@@ -1,0 +1,79 @@
+"""Logs of programs that go their own ways: lamps left early, own probabilities, points beside walls."""
+
+import json
+
+import numpy as np
+import pytest
+from logs import HEADER, INNER, OUTER, write_log
+from suite import castray
+
+import tracer
+from tracer.trace.jsonl import read_log
+
+EYE, FLOOR, ON_LAMP = (np.array(p, float) for p in ((278, 273, -800), (450, 0, 110), (278, 548.7, 280)))
+
+
+def way(a, b):
+    return ((b - a) / np.linalg.norm(b - a)).tolist()
+
+
+LAMP = {
+    "path": 0, "x": 3, "y": 5, "sample": 0, "call": 1, "parent": 0, "depth": 1,
+    "ray.o": FLOOR.tolist(), "ray.d": way(FLOOR, ON_LAMP), "returned": [0, 0, 0],
+}  # fmt: skip
+TO_LAMP = OUTER | {
+    "ray.d": way(EYE, FLOOR), "hit.p": FLOOR.tolist(), "bounce.wi": LAMP["ray.d"], "indirect": [0, 0, 0],
+    "returned": OUTER["direct"],
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def cornell():
+    return tracer.load("cornell")
+
+
+@pytest.fixture
+def written(tmp_path):
+    return lambda *lines, head=HEADER: write_log(tmp_path / "mine.jsonl", *lines, head=head)
+
+
+def said(log):
+    return [(finding.rule, finding.bug) for finding in tracer.examine(log.trace).causes]
+
+
+def test_a_call_that_leaves_a_lamp_at_once_met_it(written, cornell):
+    log = read_log(written(TO_LAMP, LAMP), cornell)
+    assert said(log) == [] and log.trace.vertices == 2
+    assert any("where there is a lamp" in note for note in log.notes)
+    (last,) = log.trace.tables["hit"]["primitive"][1:]
+    assert cornell.shapes[cornell.shape_of[last]].name == "lamp"
+
+
+def test_a_call_that_meets_nothing_where_there_is_a_wall_is_told(written, cornell):
+    none = {name: value for name, value in INNER.items() if name not in ("hit.p", "hit.n", "direct")}
+    assert said(read_log(written(OUTER, none | {"returned": [0, 0, 0]}), cornell))[0][0] == "escape-free"
+
+
+@pytest.mark.parametrize(("q", "fires"), [(0.6, False), (0.0, True)])
+def test_a_program_may_choose_its_survival_probability_vertex_by_vertex(written, cornell, q, fires):
+    head = {name: value for name, value in HEADER.items() if name != "roulette"}
+    log = read_log(written(OUTER, INNER | {"roulette.probability": q}, head=head), cornell)
+    assert log.trace.free == {"roulette"}
+    assert ("roulette-probability" in [rule for rule, _ in said(log)]) == fires
+    declared = read_log(written(OUTER, INNER | {"roulette.probability": 0.6}), cornell)
+    assert "roulette-probability" in [rule for rule, _ in said(declared)]
+
+
+def test_points_beside_a_wall_are_named_with_it(written, cornell):
+    above = FLOOR + [0, 3, 0]
+    beside = TO_LAMP | {"ray.d": way(EYE, above), "hit.p": above.tolist(), "roulette.survived": False}
+    findings = tracer.examine(read_log(written(beside), cornell).trace).findings
+    (finding,) = [f for f in findings if f.rule == "on-surface"]
+    assert finding.bug is None and "floor" in finding.explanation
+
+
+def test_a_log_in_which_little_is_said_is_not_called_right_without_a_word(written):
+    path = written(OUTER, INNER)
+    done = castray("doctor", path, "--scene", "cornell")
+    assert done.returncode == 0 and "light.q" in done.stdout and "not all laws" in done.stdout
+    assert not json.loads(castray("doctor", path, "--scene", "cornell", "--json").stdout)["findings"]
