@@ -19,6 +19,7 @@ from tracer.picture import to_srgb
 SIDE, SPP, SEED = 64, 16, 77
 SINGLE = [bug.id for bug in ZOO.values() if bug.scene == "cornell" and not bug.only_cost]
 TOGETHER = ("E01+D06", "D01+D06", "E01+D01", "D06+R01", "E02+D06", "D10+R01", "B12+D01", "E01+D01+D06")
+MADE_OF = {("castray",): ("E01", "D01", "D06")}  # an entry of the zoo that is a mixture
 KINDS = ("8 bits", "linear")
 
 
@@ -44,7 +45,7 @@ def shows(album, key):
 def rank(hypotheses, key):
     """Place of the hypothesis that names all of the bugs, or their look-alikes; None where none does."""
     for place, h in enumerate(hypotheses, 1):
-        told = [h.bugs, *(other.split(" + ") for other in h.alike)]
+        told = [MADE_OF.get(h.bugs, h.bugs), *(other.split(" + ") for other in h.alike)]
         if any(_same(bugs, key.split("+")) for bugs in told):
             return place
     return None

@@ -15,6 +15,7 @@ import tracer
 from lessons.zoo import ZOO, alike
 from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, suited
 from tracer.doctor.picture import features, fit, judged, resampled
+from tracer.doctor.picture.walls import shown
 from tracer.picture import to_srgb
 
 CURVES = ("srgb", 0.6, 1.0)
@@ -130,6 +131,14 @@ def test_resampling_keeps_the_mean_whatever_the_size():
     for size in ((8, 8), (37, 23), (50, 40)):
         assert resampled(values, *size).mean() == pytest.approx(values.mean())
     assert resampled(values, 37, 23) == pytest.approx(values)
+
+
+def test_the_black_rim_of_the_right_picture_is_no_lost_row():
+    """Walls end where no pixel of these sizes does."""
+    for side in (33, 64, 100, 200):
+        seen = resampled(stored().picture, side, side)
+        rim = (shown(SCENE, side, side) >= 0).any(axis=1)
+        assert opinion(np.where(rim[:, None, None], seen, 0.0), (None,), spp=256).hypotheses == ()
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ from tracer.doctor.picture.features import CELLS, features, resampled
 from tracer.doctor.picture.fitting import Fit, fit, fits, misfit
 from tracer.doctor.picture.mixing import guesses
 from tracer.doctor.picture.reading import Reading, others, plain
-from tracer.doctor.picture.walls import walls
+from tracer.doctor.picture.walls import shown, walls
 
 MIXED = 0.9  # worse than that, mixtures are tried
 FITS = 1.2  # mean squared deviation; right pictures have about a half
@@ -24,6 +24,7 @@ _MOST, _RENDERED = 5, 5  # hypotheses that are named; mixtures that are rendered
 _FACTOR = 0.08  # relative: a picture brighter or darker throughout by less is not called so
 _WHOLE = 0.03  # relative: so near a whole number a factor may be one of samples
 _USUAL_SPP = 16
+_ACROSS = 16  # pixels of a row that are asked what they show
 _DIM = 0.6  # a cell that is so bright need not be clipped
 _FEW_CELLS = 16  # fewer that are not clipped say nothing about a factor
 _CLIPPED = 0.02  # share of a cell's pixels at 1 from which on it says nothing about brightness
@@ -87,7 +88,7 @@ def judged(values, eight_bits, curves, scene, album, mixed, spp=None):
     limit = min(FITS, CLOSE * best + 0.1, right.typical - least)
     fitting = [h for h in ranked if h.deviation <= limit]
     invalid = float(1.0 - np.isfinite(reading.rgb).all(axis=2).mean())
-    found = (*_marked(reading, invalid, album.picture), *_alike(fitting)[:_MOST])
+    found = (*_marked(reading, invalid, album.picture, scene), *_alike(fitting)[:_MOST])
     nearest = ranked[0] if off and not fitting else None
     shown = tuple(walls(reading.rgb, album.picture, scene, eight_bits))
     return Opinion(reading, found, nearest, right, shown, invalid)
@@ -190,13 +191,14 @@ def _unclipped(reading):
     return resampled(full, CELLS, CELLS) < _CLIPPED
 
 
-def _marked(reading, invalid, right):
+def _marked(reading, invalid, right, scene):
     """Hypotheses that single pixels suggest: no numbers, rows that nobody drew."""
     if invalid > 0.0:
         yield Hypothesis(("B15",), marks=(("invalid", invalid),))
-    height = reading.rgb.shape[0]
+    height, width = reading.rgb.shape[:2]
     rows = resampled(np.asarray(right).sum(axis=2), height, 1)[:, 0]
-    lit = rows > 0.7 * np.median(rows)
+    filled = (shown(scene, height, width, max(1, width // _ACROSS)) >= 0).any(axis=1)
+    lit = filled & (rows > 0.3 * np.median(rows))
     lost = (reading.rgb == 0.0).all(axis=(1, 2)) & lit
     if 0 < lost.sum() < height // 2 and (lost[lit][-1] or lost[lit][0]):
         yield Hypothesis(("P06",), marks=(("rows", int(lost.sum())),))

@@ -21,15 +21,17 @@ class Wall:
     cells: np.ndarray
 
 
-def shown(scene, height, width):
-    """Number of the shape that each pixel's centre shows, (H, W); -1 for none."""
-    x, y = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+def shown(scene, height, width, step=1):
+    """Number of the shape that each pixel's centre shows, (H, W); -1 for none. step: of columns, to look at
+    some of them only."""
+    columns = np.arange(0, width, step) + 0.5
+    x, y = np.meshgrid(columns, np.arange(height) + 0.5)
     film = np.stack((x.ravel(), y.ravel())).astype(scene.dtype)
     lens = np.full_like(film, 0.5)
     o, d = scene.camera.rays(film, width, height, scene.dtype, lens)
     with np.errstate(all="ignore"):  # a ray along a wall
         _, primitive = scene.intersect(o, d, np.full(film.shape[1], -1, np.int32))
-    return np.where(primitive >= 0, scene.shape_of[primitive], -1).reshape(height, width)
+    return np.where(primitive >= 0, scene.shape_of[primitive], -1).reshape(height, columns.size)
 
 
 def walls(rgb, right, scene, eight_bits):
