@@ -27,7 +27,7 @@ def chromium():
     return next(filter(None, map(shutil.which, names)), None) or suite.missing("chromium")
 
 
-@pytest.hookimpl(tryfirst=True)  # before xdist reads the groups
+@pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
 def pytest_collection_modifyitems(items):
     """Tests that share a costly fixture (a browser, an installed wheel) stay on one worker, file by file."""
     for item in items:
