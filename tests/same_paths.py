@@ -18,7 +18,10 @@ from tracer.integrator.wave import Wave
 
 NEAR = 1e-4  # of the scene's size
 SIDE, SPP = 64, 8
-_MASKED = -9  # end of a path that goes on after the last vertex kept
+ACCEPTED = (
+    "cornell_unit cornell furnace many_lights cornell_glass mirror_corridor glass_slab sky plates white_furnace "
+    "materials"
+).split()
 
 
 def of_numpy(scene, settings, steps=RIGHT):
@@ -73,14 +76,7 @@ def share(scene, settings):
 
 
 def main():
-    names = sys.argv[1:] or [
-        "cornell_unit",
-        "furnace",
-        "cornell_glass",
-        "mirror_corridor",
-        "glass_slab",
-        "sky",
-    ]
+    names = sys.argv[1:] or ACCEPTED
     for name in names:
         scene = tracer.load(name)
         found = share(scene, tracer.Settings(width=SIDE, height=SIDE, spp=SPP))

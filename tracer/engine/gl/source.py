@@ -9,6 +9,7 @@ from importlib.resources import files
 
 import numpy as np
 
+from tracer.bsdf.roughplastic import NODES
 from tracer.engine.gl import tables
 from tracer.integrator.steps import AUTO_DEPTH, AUTO_MOST
 from tracer.light.sample import Ball
@@ -16,7 +17,7 @@ from tracer.sampler.lattice import COMPONENTS, DEPTHS
 from tracer.sampler.numbers import USES
 
 GROUP = 64  # invocations side by side
-_TABLES = ("surfaces", "materials", "faces", "cdf", "elsewhere", "relations")
+_TABLES = ("surfaces", "materials", "faces", "cdf", "elsewhere", "relations", "through")
 _BINDINGS = {name: 2 + k for k, name in enumerate(_TABLES)}  # before them stand those of main.glsl
 _STRATEGIES = {"mis": "MIS", "light": "BY_LIGHT", "bsdf": "BY_BSDF"}
 
@@ -73,7 +74,7 @@ class Source:
         yield from self._shapes()
         yield from self._materials()
         yield from self._lights()
-        yield "struct Surface { ivec4 number; vec4 plane; vec4 more; };"
+        yield "struct Surface { ivec4 number; vec4 plane; vec4 more; vec4 u; vec4 v; };"
         yield self._table("surfaces", "Surface", tables.surfaces(self.scene, self.faces))
         for name in ("scene", "watching", "integrator/path", "main"):
             yield text(name)
@@ -92,7 +93,7 @@ class Source:
         fixed = settings.roulette not in ("auto", "off")
         yield from {
             "GROUP": GROUP, "WATCHED": self.watched and f"{self.watched}u",
-            "PI": "3.14159265", "INFINITE": "3.0e38",
+            "PI": "3.14159265", "TINY": "1.17549435e-38", "INFINITE": "3.0e38",
             "MIS": 0, "BY_LIGHT": 1, "BY_BSDF": 2, "STRATEGY": _STRATEGIES[strategy],
             "POWER": int(settings.heuristic == "power"),
             "HEMISPHERE": upper, "HEMISPHERE_PDF": f"{upper}_pdf",
@@ -102,6 +103,7 @@ class Source:
             "LAST_DEPTH": settings.last_depth,
             "JITTER": int(settings.jitter), "LENS": int(camera.aperture_radius > 0.0),
             "PRIMITIVES": len(scene.shape_of), "ANY_DELTA": int(scene.bsdf.any_delta),
+            "ANY_ANISOTROPIC": int(scene.bsdf.any_anisotropic),
             "FACES": len(self._lamps), "ELSEWHERE": len(self._elsewhere), "SURROUND": int(surround),
             "ENTRIES": len(self._lamps) + len(self._elsewhere),
             "USES": f"{len(USES)}u", "REPLICATES": f"{settings.replicates}u", "DEPTHS": f"{DEPTHS}u",
@@ -154,6 +156,13 @@ class Source:
     def _materials(self):
         yield text("bsdf/sample")
         yield text("bsdf/fresnel")
+        if any(kind in tables.ROUGH for kind in self._kinds):
+            yield text("bsdf/ggx")
+            yield text("bsdf/beckmann")
+            yield text("bsdf/microfacet")
+        if "RoughPlastic" in self._kinds:
+            yield f"#define NODES {NODES}.0"
+            yield self._table("through", "float", tables.through(self.scene))
         for kind in self._kinds:
             yield text(f"bsdf/{kind.lower()}")
         yield self._table("materials", "Material", tables.materials(self.scene))

@@ -5,6 +5,7 @@ The fields of a row are four numbers each, as std430 wants them, and bear the na
 
 import numpy as np
 
+from tracer.bsdf.roughplastic import NODES
 from tracer.light.faces import shining_faces
 from tracer.shape.arrange import InAWall
 from tracer.shape.cube import Cube
@@ -13,9 +14,10 @@ from tracer.shape.rectangle import Rectangle, RectangleKernel
 from tracer.shape.sphere import Sphere
 from tracer.shape.start import Faces, relation
 
-KINDS = ("Diffuse", "Conductor", "Dielectric", "ThinDielectric")
+ROUGH = ("RoughConductor", "RoughDielectric", "RoughPlastic")
+KINDS = ("Diffuse", "Conductor", "Dielectric", "ThinDielectric", "Plastic", *ROUGH)
 ELSEWHERE = ("Point", "Directional", "Constant")
-_ONE_SIDED, _BLACK, _DELTA, _TWO_SIDED = 1, 2, 4, 8
+_ONE_SIDED, _BLACK, _DELTA, _TWO_SIDED, _ANISOTROPIC = 1, 2, 4, 8, 16
 _FACE_KINDS = ("quad", "triangle", "sphere")
 
 
@@ -26,17 +28,19 @@ def rows(count, ints, floats):
 
 def surfaces(scene, faces):
     """Planes or spheres, and what covers them."""
-    table = rows(len(scene.shape_of), ("number",), ("plane", "more"))
+    table = rows(len(scene.shape_of), ("number",), ("plane", "more", "u", "v"))
     for shape, first in zip(scene.shapes, scene.first, strict=True):
         own = slice(first, first + shape.primitives)
         if isinstance(shape, Sphere):
             table["number"][own, 0] = 2
             table["plane"][own] = *shape.center, shape.radius
             table["more"][own, :2] = np.abs(shape.center).sum() + shape.radius, _side(shape)
+            table["u"][own, :3], table["v"][own, :3] = shape.turn[:, 0], shape.turn[:, 1]
             continue
         n, c = shape.planes()
         table["plane"][own, :3], table["plane"][own, 3] = n.T, c
         table["more"][own, 0] = faces.reach[own]
+        table["u"][own, :3] = shape.chart().tangent.T
     table["number"][:, 1], table["number"][:, 2] = scene.bsdf_of, -1
     for number, face in enumerate(_lamp_faces(scene)):
         table["number"][face.primitive, 2] = number
@@ -135,11 +139,24 @@ def materials(scene):
     for row, outer in zip(table, scene.definition.bsdfs.values(), strict=True):
         inner = getattr(outer, "bsdf", outer)
         flags = _ONE_SIDED * outer.one_sided | _DELTA * outer.delta | _TWO_SIDED * (inner is not outer)
-        flags |= _BLACK * (not np.any(outer.albedo() > 0.0))
+        flags |= _ANISOTROPIC * bool(outer.anisotropic) | _BLACK * (not np.any(outer.albedo() > 0.0))
         kind = type(inner).__name__
         row["number"][:3] = KINDS.index(kind), flags, getattr(inner, "fresnel", "exact") == "schlick"
+        row["number"][3] = getattr(inner, "distribution", "ggx") == "beckmann"
         _PARAMETERS[kind](row, inner)
+    for k in np.flatnonzero(table["number"][:, 0] == KINDS.index("RoughPlastic")):
+        table["c"][k, 3] = NODES * k
     return table
+
+
+def through(scene):
+    """What the coat of each rough plastic lets through, (materials * NODES,)."""
+    found = np.zeros((len(scene.bsdf_names), NODES), np.float32)
+    for row, outer in zip(found, scene.definition.bsdfs.values(), strict=True):
+        inner = getattr(outer, "bsdf", outer)
+        if type(inner).__name__ == "RoughPlastic":
+            row[:] = inner.through[:, 0]
+    return found
 
 
 def _diffuse(row, m):
@@ -157,7 +174,37 @@ def _dielectric(row, m):
     row["b"][:3] = m.specular_transmittance[:, 0]
 
 
-_PARAMETERS = dict(zip(KINDS, (_diffuse, _conductor, _dielectric, _dielectric), strict=True))
+def _plastic(row, m):
+    row["a"] = *m.diffuse_reflectance[:, 0], m.eta[0]
+    row["b"] = *m.specular_reflectance[:, 0], m.inside[0]
+    row["c"][0] = m.nonlinear
+
+
+def _roughconductor(row, m):
+    _conductor(row, m)
+    row["a"][3], row["b"][3] = m.alpha_u[0], m.alpha_v[0]
+
+
+def _roughdielectric(row, m):
+    _dielectric(row, m)
+    row["c"][:2] = m.alpha_u[0], m.alpha_v[0]
+
+
+def _roughplastic(row, m):
+    _plastic(row, m)
+    row["c"][:3] = m.alpha[0], m.out[0], m.nonlinear
+
+
+_PARAMETERS = {
+    "Diffuse": _diffuse,
+    "Conductor": _conductor,
+    "Dielectric": _dielectric,
+    "ThinDielectric": _dielectric,
+    "Plastic": _plastic,
+    "RoughConductor": _roughconductor,
+    "RoughDielectric": _roughdielectric,
+    "RoughPlastic": _roughplastic,
+}
 
 
 def lamp_faces(scene):

@@ -14,6 +14,17 @@ Frame around(vec3 n)
         vec3(1.0 + sign * (n.x * n.x) * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
 }
 
+// The frame around a unit normal with s as near to a unit tangent as it can be.
+Frame along(vec3 n, vec3 tangent)
+{
+    vec3 s = tangent - n * dot(n, tangent);
+    float size = length(s);
+    if (!(size > 0.01))
+        return around(n);
+    s = s / size;
+    return Frame(s, cross(n, s), n);
+}
+
 vec3 to_local(Frame f, vec3 w) { return vec3(dot(f.s, w), dot(f.t, w), dot(f.n, w)); }
 
 vec3 to_world(Frame f, vec3 w) { return f.s * w.x + f.t * w.y + f.n * w.z; }

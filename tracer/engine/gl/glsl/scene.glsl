@@ -37,6 +37,24 @@ Ray spawn(Hit hit, vec3 wi)
     return Ray(leave(hit.p, hit.ng, hit.bound, wi), wi, hit.primitive, -1, hit.bound, outside);
 }
 
+// The surface's u runs along s where the material can tell, and any frame will do where not.
+Frame surface_frame(Hit hit)
+{
+#if ANY_ANISOTROPIC
+    if (is(hit.material, ANISOTROPIC)) {
+        Surface s = surfaces[hit.primitive];
+        if (s.number.x != SPHERE)
+            return along(hit.ng, s.u.xyz);
+        vec3 away = hit.p - s.plane.xyz;
+        vec2 at = vec2(dot(s.u.xyz, away), dot(s.v.xyz, away));
+        float size = length(at);
+        at = at / (size > 0.0 ? size : 1.0);
+        return along(hit.ng, s.v.xyz * at.x - s.u.xyz * at.y);
+    }
+#endif
+    return around(hit.ng);
+}
+
 bool occluded(Hit hit, LightSample light)
 {
     Ray r = spawn(hit, light.wi);

@@ -37,9 +37,9 @@ float conductor_mean(float cos, float eta, float k, bool approximate)
         return schlick(cos, ((eta - 1.0) * (eta - 1.0) + k2) / ((eta + 1.0) * (eta + 1.0) + k2));
     float cos2 = cos * cos, sin2 = 1.0 - cos2, t0 = eta2 - k2 - sin2;
     float a2b2 = sqrt(t0 * t0 + 4.0 * eta2 * k2);
-    float part = 2.0 * cos * sqrt(max(0.5 * (a2b2 + t0), 0.0)), least = 1.17549435e-38;
-    float rs = (a2b2 + cos2 - part) / max(a2b2 + cos2 + part, least);
+    float part = 2.0 * cos * sqrt(max(0.5 * (a2b2 + t0), 0.0));
+    float rs = (a2b2 + cos2 - part) / max(a2b2 + cos2 + part, TINY);
     float sum = cos2 * a2b2 + sin2 * sin2;
-    float rp = rs * (sum - part * sin2) / max(sum + part * sin2, least);
+    float rp = rs * (sum - part * sin2) / max(sum + part * sin2, TINY);
     return 0.5 * (clamp(rs, 0.0, 1.0) + clamp(rp, 0.0, 1.0));
 }

@@ -1,7 +1,7 @@
 // What a BSDF is and answers: the twin of tracer/bsdf/sample.py.
 
 struct Material {
-    ivec4 number;  // kind; flags; whether Fresnel's formula is Schlick's; -
+    ivec4 number;  // kind; flags; whether Fresnel's formula is Schlick's, facets Beckmann's
     vec4 a;        // what these are, the file of the kind says
     vec4 b;
     vec4 c;
@@ -11,6 +11,7 @@ struct Material {
 #define BLACK 2
 #define DELTA 4
 #define TWO_SIDED 8  // the same material on both sides
+#define ANISOTROPIC 16
 
 #define NONE 0
 #define DIFFUSE_LOBE 1

@@ -84,7 +84,7 @@ vec3 trace(uint pixel, uint number, inout uint rays)
         // Vertices that nothing can be added to
         if (depth >= LAST_DEPTH)
             return end(MAX_DEPTH, L);
-        Frame frame = around(hit.ng);
+        Frame frame = surface_frame(hit);
         vec3 wo = to_local(frame, hit.wo);
         if (!reflects(hit.material, wo))
             return end(BLACK_END, L);

@@ -29,7 +29,7 @@ Seen face_seen(Face face, vec3 p)
 
 float per_angle(float density, float square, float cos)
 {
-    return cos > 0.0 ? density * square / max(cos, 1.17549435e-38) : 0.0;
+    return cos > 0.0 ? density * square / max(cos, TINY) : 0.0;
 }
 
 // q, nq and a density per m^2.

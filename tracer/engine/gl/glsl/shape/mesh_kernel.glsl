@@ -33,7 +33,7 @@ float edge(vec2 p, vec2 q)
     precise float value = p.x * q.y - p.y * q.x;
     if (value == 0.0) {  // in float64 products are exact
         precise double exact = double(p.x) * double(q.y) - double(p.y) * double(q.x);
-        value = exact > 0.0 ? 1.17549435e-38 : exact < 0.0 ? -1.17549435e-38 : 0.0;
+        value = exact > 0.0 ? TINY : exact < 0.0 ? -TINY : 0.0;
     }
     return value;
 }
@@ -54,7 +54,7 @@ void meet_triangle(Ray r, inout Near near, int primitive, Triangle t)
     float outwards = -t.plane.x * sum * d.z;  // above 0 where the ray goes out through the front
     vec3 n = vec3(t.a.w, t.b.w, t.c.w), away = r.o - t.a.xyz;
     float height = dot(n, away), cos = dot(n, r.d);
-    cos = cos == 0.0 ? 1.17549435e-38 : cos;
+    cos = cos == 0.0 ? TINY : cos;
     float distance = -height / cos;
     if (abs(cos) < GRAZING) {
         vec3 depth = vec3(dot(t.a.xyz - r.o, r.d), dot(t.b.xyz - r.o, r.d), dot(t.c.xyz - r.o, r.d));
