@@ -9,6 +9,7 @@ import inspect
 import re
 import secrets
 import sys
+from itertools import count
 from pathlib import Path
 
 from aiohttp import web
@@ -34,6 +35,10 @@ CALLS = (
     "trame.lifecycle.update",
     "viewport.geometry.array.get",
 )
+
+
+MOST_TOLD, LONGEST_TOLD = 100, 300  # lines on the terminal about what pages ask, characters of each
+_TOLD = count()
 
 
 class Door:
@@ -79,7 +84,7 @@ class Door:
         except (ConnectionError, TimeoutError):
             raise
         except Exception as error:
-            print(f"castray: {request.path}: {error!r}", file=sys.stderr)
+            _tell(f"{request.path}: {error!r}")
             return web.Response(status=500, text="castray: something went wrong\n")
 
     def _fits(self, key):
@@ -160,7 +165,7 @@ def restrict(web_server, triggers, before_state):
         "trame.state.get": whole_state,
         "trame.state.update": lambda protocol, *_: None,  # a page changes the state by triggers only
         "trame.trigger": trigger,
-        "trame.error.client": lambda protocol, message="", *_: _log(message),
+        "trame.error.client": lambda protocol, message="", *_: _tell(f"the page reports: {message}"),
         "trame.lifecycle.update": lambda protocol, *_: None,
     }
     for handler in web_server._ws_handlers:
@@ -175,8 +180,13 @@ async def _anyone(token, client_id):
     return True
 
 
-def _log(message):
-    print(f"castray: the page reports: {str(message)[:500]}", file=sys.stderr)
+def _tell(text):
+    """One line on the terminal; after many of them none, or who reads nothing of it would stop the server."""
+    number = next(_TOLD)
+    if number < MOST_TOLD:
+        print(f"castray: {' '.join(text.split())[:LONGEST_TOLD]}", file=sys.stderr)
+    elif number == MOST_TOLD:
+        print("castray: more of this kind is not told", file=sys.stderr)
 
 
 def _quiet(function):
@@ -187,7 +197,7 @@ def _quiet(function):
             answer = function(*args, **kwargs)
             return await answer if inspect.isawaitable(answer) else answer
         except (TracerError, TypeError, ValueError, KeyError, IndexError, AttributeError) as error:
-            print(f"castray: refused: {type(error).__name__}: {error}", file=sys.stderr)
+            _tell(f"refused: {type(error).__name__}: {error}")
             return None
 
     return call
