@@ -89,7 +89,7 @@ def text(rows):
     return (
         f"Pictures of the homework's scene, {SIDE} x {SIDE}, {SPP} spp, at commit {commit()}, the number of "
         f"samples unknown to the doctor. {len(seen)} bugs change such a picture: {told}. "
-        f"{', '.join(quiet)} change it by no more than noise.\n\n"
+        f"What changes it by no more than noise: {', '.join(quiet) or 'none'}.\n\n"
         "| bug | shows | first hypothesis, 8 bits | place | linear | place |\n"
         "|---|---|---|---|---|---|\n" + "\n".join(line(row) for row in rows.values()) + "\n"
     )

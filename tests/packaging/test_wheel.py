@@ -84,7 +84,8 @@ def test_the_wheel_holds_packages_scenes_and_static_files_but_no_tests(wheel):
         kept = {
             p
             for p in (ROOT / folder).rglob("*")
-            if p.suffix in (".py", ".h", ".toml", ".js", ".css", ".md", ".ply", ".obj", ".png", ".glsl")
+            if p.suffix
+            in (".py", ".h", ".toml", ".js", ".css", ".md", ".ply", ".obj", ".png", ".npz", ".glsl")
         }
         assert {path.relative_to(ROOT).as_posix() for path in kept} <= set(names)
 
