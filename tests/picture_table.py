@@ -44,9 +44,10 @@ def shows(album, key):
 
 def rank(hypotheses, key):
     """Place of the hypothesis that names all of the bugs, or their look-alikes; None where none does."""
+    true = MADE_OF.get((key,), key.split("+"))
     for place, h in enumerate(hypotheses, 1):
         told = [MADE_OF.get(h.bugs, h.bugs), *(other.split(" + ") for other in h.alike)]
-        if any(_same(bugs, key.split("+")) for bugs in told):
+        if any(_same(bugs, true) for bugs in told):
             return place
     return None
 
