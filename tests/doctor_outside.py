@@ -12,6 +12,11 @@ from accuracy import commit
 from doctor_paper import PAPER, keep, kept, write
 from outside import MISTAKES
 
+BEFORE = (
+    "When they were first tried (commit c75d45b), 7 had a wrong name, and in 4 a law fired first that was not "
+    "the one; what was mended since was mended with these at hand, so that new ones would say more."
+)
+
 
 def measured(mistake):
     """One row: what fires first, at how many events, and what it is called."""
@@ -55,7 +60,7 @@ def text(rows):
         f"Mistakes that the laws were not written for: replaced steps of castray's loop, changed lines of a "
         f"C++ program that logs and of a Python one that is watched, at commit {commit()}. Of {len(pairs)} "
         f"mistakes {found} are found; in {right} the law that fires first is one that a reader would "
-        f"call broken. {fair} get a fair name of the catalogue, {wrong} a wrong one.\n\n"
+        f"call broken. {fair} get a fair name of the catalogue, {wrong} a wrong one. {BEFORE}\n\n"
         "| mistake | | law that fires first | events, or chance | named | what is said |\n"
         "|---|---|---|---|---|---|\n"
     )

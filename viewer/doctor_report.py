@@ -27,7 +27,7 @@ def print_diagnosis(diagnosis, trace, console=None):
         console.print(Text(say("doctor.unjudged"), style="bold yellow"))
     elif not diagnosis.findings:
         console.print(Text(say("doctor.nothing"), style="bold green"))
-        if more := lacking(diagnosis.rules):
+        if trace.culled and (more := lacking(diagnosis.rules)):  # of a log
             console.print(Text(say("doctor.more", names=say.listed(*more)), style="yellow"))
     for number, finding in enumerate(diagnosis.findings):
         if number == 0:

@@ -71,6 +71,16 @@ def test_what_is_in_no_catalogue_is_found_all_the_same(tmp_path, right, wrong):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("mean", "rule"), [("direct / 2", None), ("direct", "light-term")])
+def test_several_light_samples_are_one_if_their_mean_counts(tmp_path, mean, rule):
+    begin, end = TEXT.index("    light = scene.sample_light()"), TEXT.index("    # Indirect light")
+    once = TEXT[begin:end].replace("direct = ", "direct += ").replace("\n    ", "\n        ")
+    text = f"{TEXT[:begin]}    for _ in range(2):\n    {once}\n    direct = {mean}\n\n{TEXT[end:]}"
+    found = judged(written(tmp_path, text)).findings
+    assert [f.rule for f in found][:1] == ([rule] if rule else [])
+
+
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_the_starter_draws_what_castray_draws():
     """Mean of the picture within 4 standard errors, which are 3 % of it; twice as bright is not."""

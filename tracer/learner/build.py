@@ -165,10 +165,12 @@ class Builder:
         used = [row for row in rows[LIGHT.name] if row[-1]["visible"]]
         chosen = [(*at, {**fields, "f": None}) for *at, fields in rows[LIGHT.name]]
         settings = self._declared()
+        found = []
         for lights in (chosen, used):
             tables = {kind.name: _table(kind, rows[kind.name]) for kind in KINDS}
             tables[LIGHT.name] = _table(LIGHT, lights)
-            yield trace_of(self.scene, settings, paths, tables)
+            found.append(trace_of(self.scene, settings, paths, tables))
+        return counted(found)
 
     def _declared(self):
         """The settings, with the survival probability that was used if it is one, and the kind of loop."""
@@ -193,6 +195,14 @@ def trace_of(scene, settings, paths, tables):
     """The Trace; a survival probability that is not one number is free."""
     free = frozenset({"roulette"} if settings.roulette == "auto" else ())
     return Trace(scene, settings, paths, tables, float(np.finfo(np.float64).eps), free=free)
+
+
+def counted(traces):
+    """The traces, told how many light samples a vertex has: as most have in the first trace."""
+    vertex = traces[0].hit_of(LIGHT.name)
+    many = np.bincount(vertex[vertex >= 0])
+    samples = int(np.bincount(many[many > 0]).argmax()) if vertex.size else 1
+    return tuple(replace(trace, light_samples=samples) for trace in traces)
 
 
 class _Terms:

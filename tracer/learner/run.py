@@ -12,7 +12,7 @@ import numpy as np
 
 import tracer.learner.child as child
 from tracer.events import KINDS
-from tracer.learner.build import trace_of
+from tracer.learner.build import counted, trace_of
 from tracer.scene_file.load import load
 from tracer.settings import Settings, TracerError
 from tracer.trace.trace import Table
@@ -55,7 +55,7 @@ def run(path, scene, settings, seconds=300.0, quiet=False, stopped=lambda: None)
             raise TracerError(told["error"])
         found = Settings(**told["settings"])
         ready = load(scene).at(found)
-        return tuple(_read(name, ready, found) for name in names)
+        return counted([_read(name, ready, found) for name in names])
 
 
 def _ended(asked, seconds, path, quiet, stopped):

@@ -47,7 +47,7 @@ WORDS = {
         "rule.environment": "环境按场景规定的那样发光",
         "law.environment": "逃逸的光线得到环境的辐亮度。",
         "rule.light-due": "每个顶点有一个光源样本",
-        "law.light-due": "在采样光源的地方，每个不只是镜面反射的顶点采样光源一次。",
+        "law.light-due": "在采样光源的地方，每个不只是镜面反射的顶点都采样光源，次数相同。",
         "rule.light-point": "光源点位于灯上",
         "law.light-point": "光源样本是选中的灯上的一点。",
         "rule.light-normal": "灯的法线是它的表面的法线",

@@ -137,10 +137,11 @@ def light_due(evidence):
     hits = evidence.trace.tables["hit"]
     material = scene.bsdf_of.take(evidence("hit.primitive"))
     many = np.bincount(evidence.before("light", "hit"), minlength=hits.path.size)
+    wanted = evidence.trace.light_samples
     dark, grazing = _dark(evidence, np.arange(hits.path.size))
     due = ~scene.bsdf.is_delta(material) & ~dark & (hits.depth < settings.last_depth)
-    bad = (many != due) & ~grazing & ~(dark & (many == 0))
-    return Outcome("hit", np.arange(bad.size), bad, grazing, many, due.astype(int), "light samples")
+    bad = (many != due * wanted) & ~grazing & ~(dark & (many == 0))
+    return Outcome("hit", np.arange(bad.size), bad, grazing, many, due * wanted, "light samples")
 
 
 RULES = (
@@ -155,7 +156,7 @@ RULES = (
     Rule(
         "light-due",
         "One light sample at each vertex",
-        "Where lights are sampled, each vertex that does not only mirror samples them once.",
+        "Where lights are sampled, each vertex that does not only mirror does so, all equally often.",
         "1 per vertex",
         ("hit.primitive", "hit.p", "hit.n", "hit.wo"),
         light_due,

@@ -89,7 +89,7 @@ def term(evidence):
     seen = evidence("light.visible").astype(float)
     if evidence.has("light.transmittance"):
         seen = seen * evidence("light.transmittance")
-    inputs["seen"] = (seen, 0.0)
+    inputs["seen"] = (seen / evidence.trace.light_samples, 0.0)
 
     def value(beta, f, Le, cos, w, pdf, seen):
         return np.where(pdf > 0.0, beta * f * Le * cos * w * seen / np.where(pdf > 0.0, pdf, 1.0), 0.0)
