@@ -13,8 +13,8 @@ from doctor_paper import PAPER, keep, kept, write
 from outside import MISTAKES
 
 BEFORE = (
-    "When they were first tried (commit c75d45b), 7 had a wrong name, and in 4 a law fired first that was not "
-    "the one; what was mended since was mended with these at hand, so that new ones would say more."
+    "When they were first tried (commit c75d45b), 7 had a wrong name, in 4 another law fired first. "
+    "What was mended since was mended with these at hand, so that new ones would say more."
 )
 
 
