@@ -8,13 +8,14 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import picture_table
 import pytest
 from cases import loaded
 
 import tracer
 from lessons.zoo import ZOO, alike
 from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, suited
-from tracer.doctor.picture import features, fit, judged, resampled
+from tracer.doctor.picture import Hypothesis, features, fit, judged, resampled
 from tracer.doctor.picture.walls import shown
 from tracer.picture import to_srgb
 
@@ -158,3 +159,11 @@ def test_other_scenes_are_compared_with_what_is_rendered_now():
     found = judged(rgb.astype(float), False, (None,), unit, known, lambda ids, spp: None)
     assert found.hypotheses[0].bugs == ("B02",)
     assert looks(unit, replace(bug, settings=bug.settings))[0].at.keys() == {1, 4, 16}
+
+
+def test_the_table_counts_look_alikes_and_no_part_of_a_mixture():
+    first, second = Hypothesis(("E01", "D06"), alike=("E04 + D06",)), Hypothesis(("D10",))
+    assert picture_table.rank((first, second), "E01+D06") == picture_table.rank((first,), "E04+D06") == 1
+    assert picture_table.rank((first, second), "D10") == 2
+    assert picture_table.rank((first, second), "E01") is None
+    assert picture_table.rank((Hypothesis(("castray",)),), "E01+D01+D06") == 1
