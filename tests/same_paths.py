@@ -19,8 +19,8 @@ from tracer.integrator.wave import Wave
 NEAR = 1e-4  # of the scene's size
 SIDE, SPP = 64, 8
 ACCEPTED = (
-    "cornell_unit cornell furnace many_lights cornell_glass mirror_corridor glass_slab sky plates white_furnace "
-    "materials"
+    "cornell_unit cornell furnace many_lights cornell_glass mirror_corridor glass_slab sky plates "
+    "white_furnace materials"
 ).split()
 
 
