@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from benchmarks import BENCH
+from benchmarks import BENCH, VIEWER
 from benchmarks.paper import page, section_text, sections_of, stamp
 from benchmarks.section import FULL, TINY
 from racing import RACE
@@ -36,7 +36,7 @@ def bench(out, only="", again=False, size=FULL, sections=BENCH):
         began = time.perf_counter()
         found = section.measure(size, say)
         texts[section.key] = section_text(section, mark, found)
-        out.write_text(page((*BENCH, RACE), texts), encoding="utf-8")
+        out.write_text(page((*BENCH, VIEWER, RACE), texts), encoding="utf-8")
         say("")
         print(f"{section.key}: {time.perf_counter() - began:.0f} s\n\n{found}\n", flush=True)
 

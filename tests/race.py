@@ -18,6 +18,7 @@ from pathlib import Path
 
 from accuracy import commit
 from bench import BENCH, PAPER, say
+from benchmarks import VIEWER
 from benchmarks.paper import page, section_text, sections_of, stamp
 from racing import RACE, truth, whole
 from racing.contestant import Contestant, Refused, libllvm
@@ -216,7 +217,7 @@ def main():
         found, same, version = race(asked, Path(folder))
     texts = sections_of(asked.out)
     texts[RACE.key] = section_text(RACE, stamp("1 and on", Mitsuba=version), found)
-    asked.out.write_text(page((*BENCH, RACE), texts), encoding="utf-8")
+    asked.out.write_text(page((*BENCH, VIEWER, RACE), texts), encoding="utf-8")
     say("")
     print(found, flush=True)
     sys.exit(not same)

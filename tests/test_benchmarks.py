@@ -11,7 +11,7 @@ import pytest
 import race
 import suite
 from bench import bench
-from benchmarks import BENCH, scenes
+from benchmarks import BENCH, VIEWER, scenes
 from benchmarks.paper import NOT_YET, page, sections_of
 from benchmarks.scaling import brute_force, fixed_and_each, wave_size
 from benchmarks.section import TINY, Section, in_turn, settings, short, table
@@ -55,14 +55,16 @@ def sections(*texts):
 
 def test_a_section_is_made_anew_alone_and_the_others_stay(tmp_path):
     out = tmp_path / "B.md"
-    out.write_text(page((*BENCH, RACE), {"start": "kept\n", "race": "so is this\n"}), encoding="utf-8")
+    out.write_text(
+        page((*BENCH, VIEWER, RACE), {"start": "kept\n", "race": "so is this\n"}), encoding="utf-8"
+    )
     bench(out, "lanes", again=True, sections=sections("one"))
     bench(out, "lanes", again=True, sections=sections("two"))
     texts = sections_of(out)
     assert texts["lanes"].endswith("two\n") and "one" not in texts["lanes"]
     assert (texts["start"], texts["race"]) == ("kept\n", "so is this\n")
     assert texts["depth"].endswith(f"{NOT_YET}\n")
-    assert [*texts] == [section.key for section in (*BENCH, RACE)]
+    assert [*texts] == [section.key for section in (*BENCH, VIEWER, RACE)]
 
 
 def test_what_is_measured_at_this_commit_is_not_measured_again(tmp_path, monkeypatch):
@@ -77,7 +79,7 @@ def test_what_is_measured_at_this_commit_is_not_measured_again(tmp_path, monkeyp
 
 def test_the_paper_in_the_repository_is_what_the_command_writes():
     path = ROOT / "BENCHMARKS.md"
-    assert path.read_text(encoding="utf-8") == page((*BENCH, RACE), sections_of(path))
+    assert path.read_text(encoding="utf-8") == page((*BENCH, VIEWER, RACE), sections_of(path))
 
 
 def test_works_take_turns_after_a_warm_up():

@@ -101,3 +101,10 @@ BENCH = (
         looking.pick,
     ),
 )
+VIEWER = Section(
+    "viewer",
+    "The viewer",
+    "`python tests/bench_viewer.py`: from an input to what it changed, drawn, in Chromium with software GL\n"
+    "on the same machine; 20 times each.",
+    None,
+)
