@@ -18,10 +18,7 @@ from tracer.integrator.wave import Wave
 
 NEAR = 1e-4  # of the scene's size
 SIDE, SPP = 64, 8
-ACCEPTED = (
-    "cornell_unit cornell furnace many_lights cornell_glass mirror_corridor glass_slab sky plates "
-    "white_furnace materials"
-).split()
+ACCEPTED = tracer.built_in_scenes()
 
 
 def of_numpy(scene, settings, steps=RIGHT):

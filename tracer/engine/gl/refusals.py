@@ -8,7 +8,7 @@ from tracer.integrator.steps import RIGHT, Steps
 from tracer.settings import TracerError
 from tracer.shape import end
 
-MOST = 96  # triangles, faces and spheres, which are asked one after the other
+MOST = 512  # triangles, faces and spheres, which are asked one after the other
 
 
 def refuse(scene, settings, steps):
@@ -30,24 +30,17 @@ def reasons(scene, settings, steps):
         yield f"precision {settings.precision}"
     if settings.accel != "bvh":
         yield f"accel {settings.accel}"
-    if scene.media is not None:
-        yield "shapes that are filled (interior)"
     yield from _of_shapes(scene)
     for name, material in scene.definition.bsdfs.items():
         kind = type(getattr(material, "bsdf", material)).__name__
         if kind not in tables.KINDS:
             yield f"{name}, a material of kind {kind.lower()}"
-        if scene.definition.textures.get(name):
-            yield f"{name}, a material with a texture"
     for light in scene.definition.emitters:
         if type(light).__name__ not in tables.ELSEWHERE:
             yield f"{light.name}, a light of kind {type(light).__name__.lower()}"
 
 
 def _of_shapes(scene):
-    if scene.has_smooth_normals:
-        names = [shape.name for shape in scene.shapes if getattr(shape, "normals", None) is not None]
-        yield f"{names[0]}, a mesh with smooth normals"
     if len(scene.shape_of) > MOST:
         yield f"{len(scene.shape_of)} triangles, faces and spheres (up to {MOST})"
         return

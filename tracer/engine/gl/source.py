@@ -17,8 +17,23 @@ from tracer.sampler.lattice import COMPONENTS, DEPTHS
 from tracer.sampler.numbers import USES
 
 GROUP = 64  # invocations side by side
-_TABLES = ("surfaces", "materials", "faces", "cdf", "elsewhere", "relations", "through")
-_BINDINGS = {name: 2 + k for k, name in enumerate(_TABLES)}  # before them stand those of main.glsl
+WRITTEN_OUT = 48  # triangles that stand in the source as numbers; more are a table
+_TABLES = (
+    "surfaces",
+    "materials",
+    "faces",
+    "cdf",
+    "elsewhere",
+    "relations",
+    "through",
+    "triangles",
+    "smooths",
+    "media",
+    "charts",
+    "textures",
+    "texels",
+)
+_BINDINGS = {name: 4 + k for k, name in enumerate(_TABLES)}  # before them main.glsl, watching.glsl
 _STRATEGIES = {"mis": "MIS", "light": "BY_LIGHT", "bsdf": "BY_BSDF"}
 
 
@@ -69,15 +84,34 @@ class Source:
         for name in ("camera", "shape/rays"):
             yield text(name)
         yield self._table("relations", "int", tables.relations(self.faces))
-        for name in ("shape/start", "shape/rectangle", "shape/sphere", "shape/mesh_kernel"):
+        for name in ("shape/start", "shape/rectangle", "shape/sphere", "shape/bvh", "shape/mesh_kernel"):
             yield text(name)
         yield from self._shapes()
         yield from self._materials()
         yield from self._lights()
         yield "struct Surface { ivec4 number; vec4 plane; vec4 more; vec4 u; vec4 v; };"
         yield self._table("surfaces", "Surface", tables.surfaces(self.scene, self.faces))
-        for name in ("scene", "watching", "integrator/path", "main"):
+        if self.scene.has_smooth_normals:
+            yield text("shape/mesh")
+            yield self._table("smooths", "Smooth", tables.smooth(self.scene)[1])
+        yield text("scene")
+        if self.scene.media is not None:
+            yield f"#define CAMERA_MEDIUM {self.scene.media.camera}"
+            yield self._table("media", "vec4", tables.media(self.scene))
+            yield text("medium")
+        if self.scene.bsdf.any_textured:
+            yield from self._textures()
+        for name in ("watching", "integrator/path", "main"):
             yield text(name)
+
+    def _textures(self):
+        of, texels = tables.textures(self.scene)
+        structs, functions = text("texture").split("#define NEAREST")
+        yield structs
+        yield self._table("charts", "Chart", tables.charts(self.scene))
+        yield self._table("textures", "Texture", of)
+        yield self._table("texels", "vec4", texels)
+        yield f"#define NEAREST{functions}"
 
     def _table(self, name, type_, values):
         """The declaration of a table that is read from a buffer."""
@@ -103,6 +137,8 @@ class Source:
             "LAST_DEPTH": settings.last_depth,
             "JITTER": int(settings.jitter), "LENS": int(camera.aperture_radius > 0.0),
             "PRIMITIVES": len(scene.shape_of), "ANY_DELTA": int(scene.bsdf.any_delta),
+            "ANY_SMOOTH": int(scene.has_smooth_normals), "MEDIA": int(scene.media is not None),
+            "TEXTURES": int(scene.bsdf.any_textured),
             "ANY_ANISOTROPIC": int(scene.bsdf.any_anisotropic),
             "FACES": len(self._lamps), "ELSEWHERE": len(self._elsewhere), "SURROUND": int(surround),
             "ENTRIES": len(self._lamps) + len(self._elsewhere),
@@ -143,7 +179,21 @@ class Source:
             all_.append(line)
             if k in shadowed:
                 some.append(line)
-        for k, row in zip(*tables.triangles(self.scene, self.extent, self.faces), strict=True):
+        numbers, triangles = tables.triangles(self.scene, self.extent, self.faces)
+        if len(numbers) > WRITTEN_OUT:
+            yield self._table("triangles", "Triangle", triangles)
+            begin = 0
+            for low, high, count in tables.mesh_boxes(self.scene, self.extent, self.faces):
+                lines = (
+                    f"    if (passes(r, near, {vector(low)}, {vector(high)}))",
+                    f"        for (int k = {begin}; k < {begin + count}; ++k)",
+                    "            meet_triangle(r, near, int(triangles[k].plane.w), triangles[k]);",
+                )
+                all_ += lines
+                some += lines
+                begin += count
+            numbers = []
+        for k, row in zip(numbers, triangles, strict=False):
             line = f"    meet_triangle(r, near, {k}, {struct('Triangle', row)});"
             all_.append(line)
             if k in shadowed:

@@ -13,6 +13,7 @@ from tracer.shape.mesh import Mesh
 from tracer.shape.rectangle import Rectangle, RectangleKernel
 from tracer.shape.sphere import Sphere
 from tracer.shape.start import Faces, relation
+from tracer.texture.bitmap import FILTERS, WRAPS, Bitmap
 
 ROUGH = ("RoughConductor", "RoughDielectric", "RoughPlastic")
 KINDS = ("Diffuse", "Conductor", "Dielectric", "ThinDielectric", "Plastic", *ROUGH)
@@ -21,9 +22,10 @@ _ONE_SIDED, _BLACK, _DELTA, _TWO_SIDED, _ANISOTROPIC = 1, 2, 4, 8, 16
 _FACE_KINDS = ("quad", "triangle", "sphere")
 
 
-def rows(count, ints, floats):
+def rows(count, ints, floats, more_ints=()):
     """A table of zeros with the named columns of four whole or four real numbers."""
-    return np.zeros(count, [(name, "4i4") for name in ints] + [(name, "4f4") for name in floats])
+    columns = [(ints, "4i4"), (floats, "4f4"), (more_ints, "4i4")]
+    return np.zeros(count, [(name, kind) for names, kind in columns for name in names])
 
 
 def surfaces(scene, faces):
@@ -41,14 +43,34 @@ def surfaces(scene, faces):
         table["plane"][own, :3], table["plane"][own, 3] = n.T, c
         table["more"][own, 0] = faces.reach[own]
         table["u"][own, :3] = shape.chart().tangent.T
-    table["number"][:, 1], table["number"][:, 2] = scene.bsdf_of, -1
+    table["number"][:, 1], table["number"][:, 2:] = scene.bsdf_of, -1
+    for row, number in enumerate(smooth(scene)[0]):
+        table["number"][number, 3] = row
+    if scene.media is not None:
+        table["more"][:, 2], table["more"][:, 3] = scene.media.front, scene.media.back
     for number, face in enumerate(_lamp_faces(scene)):
         table["number"][face.primitive, 2] = number
     return table
 
 
-def _side(sphere):
-    return -1.0 if sphere.flip_normals else 1.0
+def smooth(scene):
+    """The triangles of meshes that have normals of their own: (their primitives, their Smooths)."""
+    numbers, parts = [], [rows(0, (), ("a", "b", "c", "na", "nb", "nc"))]
+    for first, shape in zip(scene.first, scene.shapes, strict=True):
+        if getattr(shape, "normals", None) is None:
+            continue
+        numbers += range(int(first), int(first) + shape.primitives)
+        table = rows(shape.primitives, (), ("a", "b", "c", "na", "nb", "nc"))
+        side = _side(shape)
+        for k, corner in enumerate("abc"):
+            table[corner][:, :3] = shape.vertices[shape.faces[:, k]]
+            table[f"n{corner}"][:, :3] = side * shape.normals[shape.faces[:, k]]
+        parts.append(table)
+    return numbers, np.concatenate(parts)
+
+
+def _side(shape):
+    return -1.0 if shape.flip_normals else 1.0
 
 
 def _lamp_faces(scene):
@@ -95,19 +117,29 @@ def _as_rectangles(shape):
     return made
 
 
+def _mesh_kernels(scene, extent, faces):
+    for first, shape in zip(scene.first, scene.shapes, strict=True):
+        if isinstance(shape, Mesh):
+            yield shape.kernel(int(first), extent, scene.dtype, faces)
+
+
+def mesh_boxes(scene, extent, faces):
+    """Corners of a box around each mesh, and how many triangles it has."""
+    for kernel in _mesh_kernels(scene, extent, faces):
+        yield kernel.tree.low, kernel.tree.high, kernel.faces
+
+
 def triangles(scene, extent, faces):
     """Those of meshes: (their primitives, their Triangles)."""
     numbers, parts = [], [rows(0, (), ("a", "b", "c", "plane"))]
-    for first, shape in zip(scene.first, scene.shapes, strict=True):
-        if not isinstance(shape, Mesh):
-            continue
-        kernel = shape.kernel(int(first), extent, scene.dtype, faces)
+    for kernel in _mesh_kernels(scene, extent, faces):
         numbers += range(kernel.first, kernel.first + kernel.faces)
         table = rows(kernel.faces, (), ("a", "b", "c", "plane"))
         for corner, values, component in zip("abc", kernel.corners, kernel.n, strict=True):
             table[corner][:, :3], table[corner][:, 3] = values.T, component
         table["plane"][:, 0], table["plane"][:, 1] = kernel.turn, kernel.margin
         table["plane"][:, 2] = faces.reach[kernel.first : kernel.first + kernel.faces]
+        table["plane"][:, 3] = np.arange(kernel.first, kernel.first + kernel.faces)
         parts.append(table)
     return numbers, np.concatenate(parts)
 
@@ -135,7 +167,12 @@ def relations(faces):
 
 def materials(scene):
     """Parameters of each material; what they mean, the file of its kind in glsl/bsdf/ says."""
-    table = rows(len(scene.bsdf_names), ("number",), ("a", "b", "c"))
+    table = rows(len(scene.bsdf_names), ("number",), ("a", "b", "c"), ("painted",))
+    table["painted"] = -1
+    for number, (name, parameter, _) in enumerate(_painted(scene)):
+        inner = getattr(scene.definition.bsdfs[name], "bsdf", scene.definition.bsdfs[name])
+        place = _COLOURS[type(inner).__name__][parameter.rpartition(".")[2]]
+        table["painted"][scene.bsdf_names.index(name), "abc".index(place)] = number
     for row, outer in zip(table, scene.definition.bsdfs.values(), strict=True):
         inner = getattr(outer, "bsdf", outer)
         flags = _ONE_SIDED * outer.one_sided | _DELTA * outer.delta | _TWO_SIDED * (inner is not outer)
@@ -147,6 +184,56 @@ def materials(scene):
     for k in np.flatnonzero(table["number"][:, 0] == KINDS.index("RoughPlastic")):
         table["c"][k, 3] = NODES * k
     return table
+
+
+def _painted(scene):
+    """(name of the material, parameter, texture) of each texture in use."""
+    for name, of in scene.definition.textures.items():
+        for parameter, texture in of.items():
+            yield name, parameter, texture
+
+
+def textures(scene):
+    """The Textures, and the texels of all of them, (T, 4)."""
+    found = [texture for _, _, texture in _painted(scene)]
+    table, texels, begin = rows(len(found), ("number",), ("u", "v")), [np.zeros((0, 4), np.float32)], 0
+    for row, texture in zip(table, found, strict=True):
+        row["u"][:3], row["v"][:3] = texture.to_uv
+        row["u"][3] = begin
+        if isinstance(texture, Bitmap):
+            _, height, width = texture.texels.shape
+            row["number"] = (
+                width, height, FILTERS.index(texture.filter_type), WRAPS.index(texture.wrap_mode)
+            )  # fmt: skip
+            colours = texture.texels.reshape(3, -1).T
+        else:
+            colours = np.stack((texture.color0, texture.color1))
+        texels.append(np.column_stack((colours, np.zeros(len(colours)))).astype(np.float32))
+        begin += len(colours)
+    return table, np.concatenate(texels)
+
+
+def charts(scene):
+    """Coordinates on the primitives."""
+    table = rows(len(scene.shape_of), (), ("a", "b", "c"))
+    for first, shape in zip(scene.first, scene.shapes, strict=True):
+        own = slice(first, first + shape.primitives)
+        if isinstance(shape, Sphere):
+            for field, axis in zip("abc", shape.turn.T, strict=True):
+                table[field][own, :3] = axis
+            continue
+        chart = shape.chart()
+        table["a"][own, :3], table["b"][own, :3], table["c"][own, :3] = (
+            v.T for v in (chart.origin, chart.grad_u, chart.grad_v)
+        )
+        table["a"][own, 3], table["b"][own, 3] = chart.uv
+    return table
+
+
+def media(scene):
+    """What media take per metre, (M, 4)."""
+    sigma_t = scene.media.sigma_t.T
+    return np.column_stack((sigma_t, np.zeros(len(sigma_t)))).astype(np.float32)
 
 
 def through(scene):
@@ -195,6 +282,18 @@ def _roughplastic(row, m):
     row["c"][:3] = m.alpha[0], m.out[0], m.nonlinear
 
 
+_METAL, _GLASS = {"specular_reflectance": "c"}, {"specular_reflectance": "a", "specular_transmittance": "b"}
+_COAT = {"diffuse_reflectance": "a", "specular_reflectance": "b"}
+_COLOURS = {  # which of a, b and c hold a colour that may be a texture
+    "Diffuse": {"reflectance": "a"},
+    "Conductor": _METAL,
+    "Dielectric": _GLASS,
+    "ThinDielectric": _GLASS,
+    "Plastic": _COAT,
+    "RoughConductor": _METAL,
+    "RoughDielectric": _GLASS,
+    "RoughPlastic": _COAT,
+}
 _PARAMETERS = {
     "Diffuse": _diffuse,
     "Conductor": _conductor,

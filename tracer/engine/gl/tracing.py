@@ -59,8 +59,8 @@ class Tracer:
         self._put(0, pixels.tobytes())
         out = self._room(1, 16 * paths)
         if self._watched:
-            self._room(10, 32 * self._watched * paths)
-            self._room(11, 4 * paths)
+            self._room(2, 32 * self._watched * paths)
+            self._room(3, 4 * paths)
         for binding, table in (self._tables | self._buffers).items():
             table.bind_to_storage_buffer(binding)
         self._say(paths=paths, samples=samples)
@@ -69,9 +69,9 @@ class Tracer:
 
     def vertices(self, paths):
         """What the last call kept of its paths: (number (N, 5, 4) int32, p (N, 5, 3), end (N,))."""
-        kept = np.frombuffer(self._buffers[10].read(), [("number", "4i4"), ("p", "4f4")])
+        kept = np.frombuffer(self._buffers[2].read(), [("number", "4i4"), ("p", "4f4")])
         kept = kept[: paths * WATCHED].reshape(-1, WATCHED)
-        ends = np.frombuffer(self._buffers[11].read(), np.int32)[:paths]
+        ends = np.frombuffer(self._buffers[3].read(), np.int32)[:paths]
         return kept["number"], kept["p"][..., :3], ends
 
     def _say(self, **numbers):

@@ -4,6 +4,7 @@ struct Hit {
     vec3 p;
     int primitive;
     vec3 ng;
+    vec3 n;       // shading normal
     vec3 wo;
     int face;     // of those that shine, -1 for none
     float bound;
@@ -28,8 +29,17 @@ Hit surface_hit(Ray r, Near near)
         n = s.more.y * out_;
     } else
         p = p - (dot(n, p) - s.plane.w) * n;
-    return Hit(p, near.primitive, n, -r.d, s.number.z, error_bound(p, n, s.more.x), materials[s.number.y]);
+    vec3 shading = n;
+#if ANY_SMOOTH
+    if (s.number.w >= 0)
+        shading = shading_normal(smooths[s.number.w], p, n, -r.d);
+#endif
+    return Hit(
+        p, near.primitive, n, shading, -r.d, s.number.z, error_bound(p, n, s.more.x), materials[s.number.y]);
 }
+
+// Whether wi is on the same side of the surface by its shading and by its true normal (Veach 1997, 5.3).
+bool sides_agree(Hit hit, vec3 wi) { return dot(hit.n, wi) * dot(hit.ng, wi) > 0.0; }
 
 Ray spawn(Hit hit, vec3 wi)
 {
@@ -44,15 +54,15 @@ Frame surface_frame(Hit hit)
     if (is(hit.material, ANISOTROPIC)) {
         Surface s = surfaces[hit.primitive];
         if (s.number.x != SPHERE)
-            return along(hit.ng, s.u.xyz);
+            return along(hit.n, s.u.xyz);
         vec3 away = hit.p - s.plane.xyz;
         vec2 at = vec2(dot(s.u.xyz, away), dot(s.v.xyz, away));
         float size = length(at);
         at = at / (size > 0.0 ? size : 1.0);
-        return along(hit.ng, s.v.xyz * at.x - s.u.xyz * at.y);
+        return along(hit.n, s.v.xyz * at.x - s.u.xyz * at.y);
     }
 #endif
-    return around(hit.ng);
+    return around(hit.n);
 }
 
 bool occluded(Hit hit, LightSample light)

@@ -12,8 +12,8 @@ struct Vertex {
     vec4 p;
 };
 
-layout(std430, binding = 10) buffer Vertices { Vertex vertices[]; };
-layout(std430, binding = 11) buffer Ends { int ends[]; };
+layout(std430, binding = 2) buffer Vertices { Vertex vertices[]; };
+layout(std430, binding = 3) buffer Ends { int ends[]; };
 
 uint watched;
 

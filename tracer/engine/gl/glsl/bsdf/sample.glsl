@@ -5,6 +5,7 @@ struct Material {
     vec4 a;        // what these are, the file of the kind says
     vec4 b;
     vec4 c;
+    ivec4 painted;  // number of the texture in the place of the colour of a, b, c; -1 for none
 };
 
 #define ONE_SIDED 1

@@ -48,6 +48,9 @@ vec3 trace(uint pixel, uint number, inout uint rays)
     float pdf_bsdf = 0.0;
     bool certain = true;
     int depth = 0;
+#if MEDIA
+    int medium = CAMERA_MEDIUM;
+#endif
 #if JITTER
     jitter = random(pixel, number, 0, FILM);
 #endif
@@ -70,6 +73,12 @@ vec3 trace(uint pixel, uint number, inout uint rays)
             return end(ESCAPED, L);
         }
         Hit hit = surface_hit(r, near);
+#if MEDIA
+        beta *= transmittance(medium, near.t);
+#endif
+#if TEXTURES
+        hit.material = painted(hit);
+#endif
         seen_vertex(depth, hit.primitive, hit.p);
 
         // Le: the surface itself shines, weighted against a light sample that would have found it
@@ -94,11 +103,17 @@ vec3 trace(uint pixel, uint number, inout uint rays)
         if (!is(hit.material, DELTA)) {
             LightSample light = sample_light(hit.p, random(pixel, number, depth, LIGHT));
             vec3 wi = to_local(frame, light.wi), f = bsdf_eval(hit.material, wo, wi);
+#if ANY_SMOOTH
+            f = sides_agree(hit, light.wi) ? f : vec3(0.0);
+#endif
             float pdf = light.delta ? 0.0 : bsdf_pdf(hit.material, wo, wi);
             float w = light_weight(light.pdf, pdf);
             vec3 arriving = vec3(0.0);
             if (light.pdf > 0.0)
                 arriving = beta * f * light.Le * (abs(wi.z) * w / light.pdf);
+#if MEDIA
+            arriving *= transmittance(towards(hit, light.wi, medium), length(light.q - hit.p));
+#endif
             bool visible = false;
             if (any_channel(arriving)) {
                 ++rays;
@@ -115,8 +130,17 @@ vec3 trace(uint pixel, uint number, inout uint rays)
 
         // Indirect light: go where the BSDF chooses
         Sample s = bsdf_sample(hit.material, wo, random(pixel, number, depth, BSDF));
+        vec3 wi = to_world(frame, s.wi);
+#if ANY_SMOOTH
+        s.f = sides_agree(hit, wi) ? s.f : vec3(0.0);
+#endif
         if (!(s.pdf > 0.0) || !any_channel(s.f))
             return end(ABSORBED, L);
+#if MEDIA
+        if (!any_channel(beta))  // nothing got through to here
+            return end(ABSORBED, L);
+        medium = towards(hit, wi, medium);
+#endif
         seen_bounce(depth, s.lobe);
         beta = beta * s.f * ((s.delta ? 1.0 : abs(s.wi.z)) / s.pdf);
         certain = s.delta;
@@ -127,7 +151,7 @@ vec3 trace(uint pixel, uint number, inout uint rays)
                 return end(ROULETTE_END, L);
             beta /= q;
         }
-        r = spawn(hit, to_world(frame, s.wi));
+        r = spawn(hit, wi);
         vertex = hit.p;
     }
 }

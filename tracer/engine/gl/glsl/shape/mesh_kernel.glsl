@@ -7,7 +7,7 @@ struct Triangle {
     vec4 a;      // a corner; x of the normal
     vec4 b;      // y of the normal
     vec4 c;      // z of the normal
-    vec4 plane;  // 1 or -1, by which way the corners go round; margin within which rounding may decide; reach; -
+    vec4 plane;  // 1 or -1, by which way the corners go round; margin within which rounding may decide; reach; number
 };
 
 #define GRAZING 1e-3
