@@ -16,7 +16,7 @@ from suite import ROOT, castray, missing
 import tracer
 from lessons import zoo
 from tracer import Settings, TracerError
-from tracer.engine.gl import device, source, tables
+from tracer.engine.gl import device, material_tables, source
 from tracer.engine.gl.choice import faster
 from tracer.integrator.steps import RIGHT
 from tracer.light.envmap import Envmap
@@ -164,6 +164,80 @@ def test_a_gap_between_faces_is_seen(gl, wrong):
     assert tracer.render(room(False), small(spp=4, strategy="bsdf"), engine="gl").rgb.any()
 
 
+def kinds_of_light(**more):
+    """A floor, a ball and a leaf seen through a lens, with every kind of light that a shader knows."""
+    placed = [{"rotate": [1, 0, 0], "angle": 90}, {"translate": [0, 1.2, 0]}]
+    look = {"origin": [0.3, 0.4, 3.2], "target": [0, 0, 0], "up": [0, 1, 0]}
+    area = {"type": "area", "radiance": [5, 4, 3]}
+    return tracer.load_dict(
+        {
+            "type": "scene",
+            "sensor": {
+                "type": "thinlens",
+                "fov": 60,
+                "aperture_radius": 0.1,
+                "focus_distance": 3.0,
+                "to_world": [{"look_at": look}],
+            },
+            "sky": {"type": "constant", "radiance": [0.2, 0.2, 0.3]},
+            "sun": {"type": "directional", "direction": [-0.3, -1, -0.2], "irradiance": [1, 1, 0.8]},
+            "bulb": {"type": "point", "position": [0, 0.9, 0.5], "intensity": [3, 2, 1]},
+            "grey": {"type": "diffuse", "reflectance": [0.6, 0.5, 0.4]},
+            "leafy": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": [0.3, 0.6, 0.3]}},
+            "floor": {
+                "type": "rectangle",
+                "to_world": [{"scale": 2}, {"rotate": [1, 0, 0], "angle": -90}, {"translate": [0, -1, 0]}],
+                "bsdf": "grey",
+            },
+            "leaf": {
+                "type": "rectangle",
+                "to_world": [{"scale": 0.5}, {"translate": [-1, 0, 0]}],
+                "bsdf": "leafy",
+            },
+            "ball": {"type": "sphere", "center": [0.6, -0.4, 0.2], "radius": 0.6, "bsdf": "grey"},
+            "ceiling": {"type": "rectangle", "to_world": [{"scale": 2}, *placed], "bsdf": "grey"},
+            "lamp": {
+                "type": "rectangle",
+                "to_world": [{"scale": 0.4}, *placed],
+                "bsdf": "grey",
+                "emitter": area,
+            },
+            "moon": {
+                "type": "sphere",
+                "center": [-1, 0.8, 0.5],
+                "radius": 0.2,
+                "bsdf": "grey",
+                "emitter": area,
+            },
+            "die": {
+                "type": "cube",
+                "to_world": [
+                    {"scale": 0.1},
+                    {"rotate": [1, 1, 0], "angle": 33},
+                    {"translate": [0.9, 0.8, 0.4]},
+                ],
+                "bsdf": "grey",
+                "emitter": area,
+            },
+            **more,
+        }
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("light_sampling", ["solid_angle", "area"])
+def test_every_kind_of_light_is_sampled_alike(gl, light_sampling):
+    scene, settings = kinds_of_light(), small(spp=4, light_sampling=light_sampling)
+    assert same_paths.share(scene, settings) >= 0.999
+    ours, theirs = (tracer.render(scene, settings, engine=e) for e in ("gl", "numpy"))
+    assert np.isclose(ours.rgb, theirs.rgb, rtol=1e-3, atol=1e-5).all(axis=2).mean() > 0.99
+
+
+def with_a_lamp_on_the_floor():
+    standing = {"to_world": [{"scale": 0.4}, {"translate": [0, -0.6, -1]}], "bsdf": "grey"}
+    return kinds_of_light(stand={"type": "rectangle", "emitter": {"type": "area", "radiance": 1}, **standing})
+
+
 def under_a_picture():
     """A scene lit by a picture of the sky."""
     made = loaded("sky").definition
@@ -179,9 +253,10 @@ def with_many_triangles():
     [
         (under_a_picture, {}, "heaven, a light of kind envmap"),
         (with_many_triangles, {}, "1292 triangles, faces and spheres (up to 512)"),
+        (with_a_lamp_on_the_floor, {}, "stand, a lamp that touches another shape"),
         (lambda: loaded("cornell_unit"), {"precision": 64}, "precision 64"),
     ],
-    ids=["environment", "triangles", "precision"],
+    ids=["environment", "triangles", "touching", "precision"],
 )
 def test_what_it_cannot_do_is_refused_by_name(scene, options, what):
     with pytest.raises(TracerError, match=re.escape(what)) as error:
@@ -244,7 +319,7 @@ def test_auto_takes_it_only_where_a_graphics_card_draws(gl, monkeypatch):
 
 
 def test_each_material_stands_beside_its_twin_in_the_same_order():
-    for kind in tables.KINDS:
+    for kind in material_tables.KINDS:
         twin = (ROOT / "tracer" / "bsdf" / f"{kind.lower()}.py").read_text(encoding="utf-8")
         shader = source.text(f"bsdf/{kind.lower()}")
         for text, pattern in (

@@ -2,7 +2,7 @@
 
 from dataclasses import fields
 
-from tracer.engine.gl import tables
+from tracer.engine.gl import material_tables, tables
 from tracer.integrator.stages import refuse_unmeetable
 from tracer.integrator.steps import RIGHT, Steps
 from tracer.settings import TracerError
@@ -33,7 +33,7 @@ def reasons(scene, settings, steps):
     yield from _of_shapes(scene)
     for name, material in scene.definition.bsdfs.items():
         kind = type(getattr(material, "bsdf", material)).__name__
-        if kind not in tables.KINDS:
+        if kind not in material_tables.KINDS:
             yield f"{name}, a material of kind {kind.lower()}"
     for light in scene.definition.emitters:
         if type(light).__name__ not in tables.ELSEWHERE:

@@ -10,7 +10,7 @@ from importlib.resources import files
 import numpy as np
 
 from tracer.bsdf.roughplastic import NODES
-from tracer.engine.gl import tables
+from tracer.engine.gl import material_tables, tables
 from tracer.integrator.steps import AUTO_DEPTH, AUTO_MOST
 from tracer.light.sample import Ball
 from tracer.sampler.lattice import COMPONENTS, DEPTHS
@@ -69,7 +69,9 @@ class Source:
         self.scene, self.settings, self.watched = scene, settings, watched
         self.faces, self.extent = tables.faces_of(scene)
         self.buffers = {}
-        self._kinds = [tables.KINDS[k] for k in np.unique(tables.materials(scene)["number"][:, 0])]
+        self._kinds = [
+            material_tables.KINDS[k] for k in np.unique(material_tables.materials(scene)["number"][:, 0])
+        ]
         self._elsewhere = tables.elsewhere(scene)
         self._lamps = tables.lamp_faces(scene)
         self.text = "\n".join(self._parts())
@@ -97,7 +99,7 @@ class Source:
         yield text("scene")
         if self.scene.media is not None:
             yield f"#define CAMERA_MEDIUM {self.scene.media.camera}"
-            yield self._table("media", "vec4", tables.media(self.scene))
+            yield self._table("media", "vec4", material_tables.media(self.scene))
             yield text("medium")
         if self.scene.bsdf.any_textured:
             yield from self._textures()
@@ -105,7 +107,7 @@ class Source:
             yield text(name)
 
     def _textures(self):
-        of, texels = tables.textures(self.scene)
+        of, texels = material_tables.textures(self.scene)
         structs, functions = text("texture").split("#define NEAREST")
         yield structs
         yield self._table("charts", "Chart", tables.charts(self.scene))
@@ -206,16 +208,16 @@ class Source:
     def _materials(self):
         yield text("bsdf/sample")
         yield text("bsdf/fresnel")
-        if any(kind in tables.ROUGH for kind in self._kinds):
+        if any(kind in material_tables.ROUGH for kind in self._kinds):
             yield text("bsdf/ggx")
             yield text("bsdf/beckmann")
             yield text("bsdf/microfacet")
         if "RoughPlastic" in self._kinds:
             yield f"#define NODES {NODES}.0"
-            yield self._table("through", "float", tables.through(self.scene))
+            yield self._table("through", "float", material_tables.through(self.scene))
         for kind in self._kinds:
             yield text(f"bsdf/{kind.lower()}")
-        yield self._table("materials", "Material", tables.materials(self.scene))
+        yield self._table("materials", "Material", material_tables.materials(self.scene))
         for type_, answer, arguments in (
             ("vec3", "eval", "wo, vec3 wi"),
             ("float", "pdf", "wo, vec3 wi"),
@@ -224,7 +226,7 @@ class Source:
             names = arguments.replace("vec3 ", "")
             *some, last = self._kinds
             lines = [
-                f"    if (m.number.x == {tables.KINDS.index(kind)})\n"
+                f"    if (m.number.x == {material_tables.KINDS.index(kind)})\n"
                 f"        return {kind.lower()}_{answer}(m, {names});"
                 for kind in some
             ]
