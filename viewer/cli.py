@@ -33,8 +33,9 @@ def command_line(say):
         group_arguments=say("help.arguments"),
         group_parameters=say("help.parameters"),
     )
-    for name in COMMANDS:
-        app.command(f"viewer.commands.{name}:{name}", name=name, help=say(f"command.{name}"))
+    for name in COMMANDS:  # their docstrings are wrapped anew, which plain text is not
+        module = f"viewer.commands.{name}:{name}"
+        app.command(module, name=name, help=say(f"command.{name}"), help_format="markdown")
     return app
 
 

@@ -52,7 +52,9 @@ def path_options(name, without=(), size="default: the scene's"):
         converter = _whole if f.type is int else None
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
     if "set" not in without:
-        columns.append(("set", Annotated[tuple[str, ...], Parameter(help=_SET, negative=())], ()))
+        columns.append(
+            ("set", Annotated[tuple[str, ...], Parameter(help=_SET, negative=(), show_default=False)], ())
+        )
     return Parameter(name="*", group="Path options")(
         make_dataclass(name, columns, frozen=True, namespace={"__module__": __name__})
     )

@@ -1,6 +1,9 @@
 """The command `castray log`."""
 
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 import tracer
 from tracer.settings import TracerError
@@ -12,7 +15,7 @@ def log(
     /,
     *,
     scene: str | None = None,
-    schema: bool = False,
+    schema: Annotated[bool, Parameter(negative=())] = False,
     header: Path | None = None,
     json: Json = False,
 ):
