@@ -100,6 +100,13 @@ class Film:
             self.parts[..., where] += part.parts
         self.samples[where] += part.samples
 
+    def put(self, where, sheet):
+        """Put in the Film of a slice of pixels of which nothing was added yet."""
+        self.total[:, where], self.spread[:, where] = sheet.total, sheet.spread
+        self.samples[where] = sheet.samples
+        if self.parts is not None:
+            self.parts[..., where] = sheet.parts
+
     def mean(self):
         """Every pixel's mean (3, P) as float32; 0 where nothing was added."""
         return (self.total / np.maximum(self.samples, 1)).astype(np.float32)

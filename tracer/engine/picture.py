@@ -1,13 +1,15 @@
 """Render a picture; trace one pixel again with everything kept."""
 
 import time
+import warnings
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from tracer import film
-from tracer.engine import plan, waves
+from tracer.engine import many, parts, plan, waves
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.recorder import RecordedPath, number, record
@@ -41,14 +43,51 @@ class Picture:
         return 1.0 - self.paths / (self.samples.size * self.settings.spp)
 
     @classmethod
-    def of(cls, sheet, settings, seconds, rays, dropped, complete, engine="numpy"):
-        """The picture on a Film."""
-        width, height = settings.width, settings.height
+    def of(cls, so_far, settings, engine="numpy"):
+        """The picture that a SoFar is by now."""
+        width, height, sheet = settings.width, settings.height, so_far.sheet
         rgb, variance = (
             np.ascontiguousarray(a.T).reshape(height, width, 3) for a in (sheet.mean(), sheet.variance())
         )
         samples = sheet.samples.reshape(height, width)
-        return cls(rgb, variance, samples, settings, seconds, rays, dropped, complete, engine)
+        cost = so_far.seconds, so_far.rays, so_far.dropped
+        return cls(rgb, variance, samples, settings, *cost, so_far.complete, engine)
+
+
+@dataclass
+class SoFar:
+    """A picture in the making."""
+
+    sheet: film.Film
+    seconds: float = 0.0
+    rays: int = 0
+    dropped: int = 0
+    complete: bool = False
+
+    @classmethod
+    def begin(cls, settings):
+        """Nothing yet of a picture with these Settings."""
+        return cls(film.Film(settings.width * settings.height, settings.parts))
+
+    def add(self, result):
+        """Count what a result cost."""
+        self.rays += result.rays
+        self.dropped += result.dropped
+
+    @contextmanager
+    def going(self):
+        """While it is worked on: keeps the time. It ends early by Ctrl-C or, which a warning says, with a
+        cluster that is lost."""
+        began = time.perf_counter()
+        try:
+            yield
+            self.complete = True
+        except KeyboardInterrupt:
+            pass
+        except many.Lost as lost:
+            warnings.warn(str(lost), many.ClusterWarning, stacklevel=3)
+        finally:
+            self.seconds += time.perf_counter() - began
 
 
 def render(
@@ -60,6 +99,8 @@ def render(
     until_error=None,
     adaptive="off",
     engine="numpy",
+    cluster=None,
+    so_far=None,
 ):
     """Render `scene`.
 
@@ -68,29 +109,31 @@ def render(
     of the loop; settings.bug asks for those of `lessons.zoo.planted`. until_error: stop a tile when its root
     mean of se^2 / (mean^2 + 0.01) is that small; settings.spp is then the most. adaptive: "mse" or "relmse"
     spends settings.spp, on average, where that error is (see engine/plan.py). engine: "numpy", or "gl", which
-    is one process and gives the same picture but for rounding. Ctrl-C returns the picture so far with
-    complete = False. Raises TracerError.
+    is one process and gives the same picture but for rounding. cluster: a tracer.cluster.Cluster that does
+    the work instead of this machine; pixel by pixel, unless until_error or adaptive look at the whole.
+    so_far: a SoFar of the same picture to go on with, pixel by pixel; it is filled. Ctrl-C, and a cluster
+    that is lost, which a warning says, return the picture so far with complete = False. Raises TracerError.
     """
     settings = asked(scene, settings, steps)
-    pixels = settings.width * settings.height
-    sheet = film.Film(pixels, settings.parts)
-    job = tracing(engine, scene, settings, steps)
-    workers = 1 if engine == "gl" else workers
+    paths = settings.width * settings.height * settings.spp
+    so_far = so_far or SoFar.begin(settings)
+    sheet = so_far.sheet
     rounds = plan.rounds(settings, sheet, until_error, adaptive)
-    rays = dropped = done = 0
-    complete = True
-    began = time.perf_counter()
-    try:
-        for result in results(job, rounds, pixels * settings.spp, workers):
+    if cluster and until_error is None and adaptive == "off":
+        rounds = [many.left(settings, cluster.processes, sheet)]
+        job = partial(parts.trace, scene.at(settings), settings, steps)
+    else:
+        job = tracing(engine, scene, settings, steps)
+    workers = 1 if engine == "gl" else workers
+    done = int(sheet.samples.sum())
+    with so_far.going():
+        for result in results(job, rounds, paths, workers, cluster):
             waves.collect(sheet, result)
-            rays += result.rays
-            dropped += result.dropped
+            so_far.add(result)
             done += result.task.paths
             if progress:
-                progress(done, pixels * settings.spp)
-    except KeyboardInterrupt:
-        complete = False
-    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete, engine)
+                progress(done, paths)
+    return Picture.of(so_far, settings, engine)
 
 
 def tracing(engine, scene, settings, steps):
@@ -111,9 +154,13 @@ def asked(scene, settings, steps):
     return settings.at_size_of(scene)
 
 
-def results(job, rounds, paths, workers):
-    """What job(task) gives for the tasks of all rounds, in order: by this process, then by several once it is
-    clear that the rest is worth it. paths: of all tasks together."""
+def results(job, rounds, paths, workers, cluster=None):
+    """What job(task) gives for the tasks of all rounds, in order: by a cluster; or by this process, then by
+    several once it is clear that the rest is worth it. paths: of all tasks together."""
+    if cluster:
+        for tasks in rounds:
+            yield from many.traced(job, tasks, cluster)
+        return
     if workers == 1:
         for tasks in rounds:
             yield from map(job, tasks)

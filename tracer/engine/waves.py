@@ -42,7 +42,7 @@ class Result(NamedTuple):
     """What a task brings to the film."""
 
     task: Task
-    block: film.Block
+    block: film.Block | film.Film  # of a task that is a Part, all its sums
     rays: int
     dropped: int
 
@@ -79,6 +79,9 @@ def trace(scene, settings, steps, task):
 
 def collect(sheet, result):
     """Add a result to the film."""
+    if isinstance(result.block, film.Film):
+        sheet.put(result.task.pixels, result.block)
+        return
     pixels, sample, _ = result.task
     if np.ndim(sample) == 0:
         sheet.add(pixels, result.block)

@@ -179,23 +179,19 @@ def _same(folder, header):
     there = folder.header
     for name in ("level", "settings", "scene", "fingerprint", "names"):
         if there[name] != (asked := json.loads(json.dumps(header[name]))):
-            raise TracerError(
-                f"{folder.path}: {_difference(name, there[name], asked)}; choose another folder"
-            )
+            raise TracerError(f"{folder.path}: {difference(name, there[name], asked)}; choose another folder")
     remove_unfinished(folder.path)
     return folder
 
 
-def _difference(name, there, asked):
-    """What is different about a recording that is there, in words."""
+def difference(name, there, asked, what="a recording"):
+    """What is different about something that is there, in words."""
     if not isinstance(there, dict):
-        return f"holds a recording of {name} {there}, not {asked}"
+        return f"holds {what} of {name} {there}, not {asked}"
     keys = [key for key in {**there, **asked} if there.get(key) != asked.get(key)]
     if name == "scene":
-        return f"holds a recording of another scene or another state of it ({there.get('name')})"
-    return (
-        f"holds a recording with {name} {keys[0]} {there.get(keys[0])!s:.60}, not {asked.get(keys[0])!s:.60}"
-    )
+        return f"holds {what} of another scene or another state of it ({there.get('name')})"
+    return f"holds {what} with {name} {keys[0]} {there.get(keys[0])!s:.60}, not {asked.get(keys[0])!s:.60}"
 
 
 def remove_unfinished(path):

@@ -1,7 +1,7 @@
 """Columns to Parquet files and back, by DuckDB."""
 
+import threading
 from contextlib import contextmanager
-from functools import cache
 
 from tracer.settings import TracerError
 
@@ -13,14 +13,18 @@ QUICK = f"PARQUET_VERSION v2, COMPRESSION uncompressed, DICTIONARY_SIZE_LIMIT {D
 MEMORY = "400MB"  # a row group in the making is the most that is held
 
 
-@cache
+_own = threading.local()  # two threads cannot share a connection
+
+
 def connection():
-    """This process's DuckDB, in memory, on one thread."""
+    """This thread's DuckDB, in memory, on one thread."""
     import duckdb
 
-    return duckdb.connect(
-        config={"threads": 1, "memory_limit": MEMORY, "autoinstall_known_extensions": False}
-    )
+    if not hasattr(_own, "connection"):
+        _own.connection = duckdb.connect(
+            config={"threads": 1, "memory_limit": MEMORY, "autoinstall_known_extensions": False}
+        )
+    return _own.connection
 
 
 def write(file, columns, options=SMALL, **notes):

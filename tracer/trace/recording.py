@@ -5,22 +5,22 @@ forgotten, so memory does not grow with the picture, and any process may do any 
 already is read instead of traced: that is how a recording that was stopped goes on.
 """
 
-import os
 import shutil
-import time
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
+from uuid import uuid4
 
 import numpy as np
 
 from tracer import film
 from tracer.engine import waves
 from tracer.engine.memory import keep_freed
-from tracer.engine.picture import Picture, asked, results
+from tracer.engine.parts import Part, cut, folded, whole
+from tracer.engine.parts import wave as wave_of
+from tracer.engine.picture import Picture, SoFar, asked, results
 from tracer.events import CAMERA, END, END_REASONS, ESCAPE, HIT, KINDS
 from tracer.integrator.steps import RIGHT
-from tracer.integrator.wave import Wave
 from tracer.settings import TracerError
 from tracer.trace import columns, folder, parquet, stored_scene
 from tracer.trace.fingerprint import fingerprint
@@ -35,20 +35,6 @@ PILOT = 256  # pixels looked at to learn how long paths are
 INVALID = END_REASONS.index("invalid")
 
 
-class Part(NamedTuple):
-    """Samples of some pixels, which are numbered line by line."""
-
-    number: int
-    pixels: slice
-    sample: int  # first of them
-    samples: int  # of each pixel, in whole blocks of the film but for the last
-
-    @property
-    def paths(self):
-        """Number of paths to trace."""
-        return (self.pixels.stop - self.pixels.start) * self.samples
-
-
 class Kept(NamedTuple):
     """What a part brings to the film."""
 
@@ -58,34 +44,34 @@ class Kept(NamedTuple):
     dropped: int
 
 
-def record(scene, settings, path, level="paths", progress=None, workers=1, steps=RIGHT):
+def record(scene, settings, path, level="paths", progress=None, workers=1, steps=RIGHT, cluster=None):
     """Render `scene` as tracer.render does, bit for bit, and keep its paths in the folder `path`.
 
     level: "paths", a row for each, or "events", everything that happened. Where the same recording was begun
-    before, it goes on: what is there is not traced again. progress, workers, steps: as for render. Ctrl-C
-    returns the picture so far with complete = False. Raises TracerError: if the folder has something else in
+    before, it goes on: what is there is not traced again. progress, workers, steps, cluster: as for render;
+    a cluster's workers write into the folder, which all of them must see. Ctrl-C, and a cluster that is lost,
+    return the picture so far with complete = False. Raises TracerError: if the folder has something else in
     it, if the disk has too little room, if it cannot be written.
     """
     if level not in folder.LEVELS:
         raise TracerError(f"record_level: {level!r} is not known; choose one of {', '.join(folder.LEVELS)}")
     settings = asked(scene, settings, steps)
     scene = scene.at(settings)
-    place = _begun(scene, settings, Path(path), level, steps)
+    path = Path(path).absolute() if cluster else Path(path)  # workers stand elsewhere
+    place = _begun(scene, settings, path, level, steps)
     parts = list(parts_of(settings, place.header["lanes"]))
-    sheet = film.Film(settings.width * settings.height, settings.parts)
+    so_far = SoFar.begin(settings)
     job = partial(keep, scene, settings, steps, place)
-    rays = dropped = done = 0
-    total, complete, began = settings.width * settings.height * settings.spp, True, time.perf_counter()
-    try:
-        for kept in results(job, [parts], total, workers):
+    done, total = 0, settings.width * settings.height * settings.spp
+    with so_far.going():
+        for kept in results(job, [parts], total, workers, cluster):
             for pixels, block in kept.blocks:
-                sheet.add(pixels, block)
-            rays, dropped, done = rays + kept.rays, dropped + kept.dropped, done + kept.task.paths
+                so_far.sheet.add(pixels, block)
+            so_far.add(kept)
+            done += kept.task.paths
             if progress:
                 progress(done, total)
-    except KeyboardInterrupt:
-        complete = False
-    return Picture.of(sheet, settings, time.perf_counter() - began, rays, dropped, complete)
+    return Picture.of(so_far, settings)
 
 
 def _begun(scene, settings, path, level, steps):
@@ -135,7 +121,7 @@ def bytes_of_path(scene, settings, steps=RIGHT):
     numbers = np.unique(np.linspace(0, numbers.size - 1, min(PILOT, numbers.size)).astype(np.int64))
     samples = min(settings.spp, 4)
     part = Part(0, slice(0, numbers.size), 0, samples)
-    wave = _wave(numbers, part, settings, steps)
+    wave = wave_of(numbers, part, settings, steps)
     size = 0
     for event in waves.events(scene, settings, wave):
         row = sum(c.itemsize * (c.size // max(event.lane.size, 1)) for c in event.columns.values())
@@ -148,15 +134,7 @@ def bytes_of_path(scene, settings, steps=RIGHT):
 
 def parts_of(settings, lanes):
     """The parts of a recording of about `lanes` paths each, in the order of pixel and sample."""
-    pixels, samples = settings.width * settings.height, settings.spp
-    if samples > lanes:
-        samples = max(film.BLOCK, lanes // film.BLOCK * film.BLOCK)
-    step, number = max(1, lanes // samples), 0
-    for start in range(0, pixels, step):
-        for sample in range(0, settings.spp, samples):
-            some = min(samples, settings.spp - sample)
-            yield Part(number, slice(start, min(start + step, pixels)), sample, some)
-            number += 1
+    return cut(whole(settings), lanes)
 
 
 def keep(scene, settings, steps, place, part):
@@ -168,32 +146,16 @@ def keep(scene, settings, steps, place, part):
     step = max(1, waves.LANES // part.samples)
     for start in range(part.pixels.start, part.pixels.stop, step):
         pixels = slice(start, min(start + step, part.pixels.stop))
-        wave = _wave(np.arange(pixels.start, pixels.stop), part, settings, steps)
+        wave = wave_of(np.arange(pixels.start, pixels.stop), part, settings, steps)
         events = waves.events(scene, settings, wave)
         if place.level == "events":
             found.append(_all(events, scene, settings, wave))
         else:
             found.append({"paths": columns.of_paths(_paths(events, wave))})
-        blocks += _folded(pixels, part, settings, wave.radiance)
+        blocks += folded(pixels, part, settings, wave.radiance)
         rays, dropped = rays + wave.rays, dropped + wave.dropped
     _write(place, part, found, rays)
     return Kept(part, blocks, rays, dropped)
-
-
-def _wave(numbers, part, settings, steps):
-    """The part's samples of some of its pixels (P,)."""
-    pixel = np.repeat(numbers, part.samples)
-    sample = np.tile(np.arange(part.sample, part.sample + part.samples), numbers.size)
-    return Wave(pixel % settings.width, pixel // settings.width, sample, settings, steps)
-
-
-def _folded(pixels, part, settings, radiance):
-    """Samples (3, N) of a slice of pixels as the film wants them."""
-    of_pixels = radiance.reshape(3, -1, part.samples)
-    return [
-        (pixels, film.block(of_pixels[:, :, s : s + film.BLOCK], part.sample + s, settings.parts))
-        for s in range(0, part.samples, film.BLOCK)
-    ]
 
 
 def _paths(events, wave):
@@ -239,7 +201,7 @@ def _all(events, scene, settings, wave):
 def _write(place, part, found, rays):
     """Put a part into its folder, whole or not at all. found: of each of its waves {table: flat columns}."""
     goal = place.part(part.number)
-    beside = goal.with_name(f"{goal.name}.{os.getpid()}{folder.PARTIAL}")
+    beside = goal.with_name(f"{goal.name}.{uuid4().hex}{folder.PARTIAL}")
     try:
         beside.mkdir()
         for name in found[0]:
@@ -253,12 +215,22 @@ def _write(place, part, found, rays):
                 parquet.write(file, flat, parquet.SMALL)
             folder.flush(file)
         folder.flush(beside)
-        beside.rename(goal)
+        _put(beside, goal)
         folder.flush(place.path)
     except (OSError, TracerError) as error:
         shutil.rmtree(beside, ignore_errors=True)
         said = error if isinstance(error, TracerError) else f"{goal}: {error.strerror or error}"
         raise TracerError(f"{said} (the parts that are done are kept)") from None
+
+
+def _put(beside, goal):
+    """Give a written part its name, unless another worker that seemed dead has finished it meanwhile."""
+    try:
+        beside.rename(goal)
+    except OSError:
+        if not goal.is_dir():
+            raise
+        shutil.rmtree(beside)
 
 
 def read_part(place, settings, part):
@@ -270,5 +242,5 @@ def read_part(place, settings, part):
     if radiance.shape[1] != part.paths:
         raise TracerError(f"{file}: has {radiance.shape[1]} paths where {part.paths} belong")
     dropped = int(np.count_nonzero(there["reason"] == INVALID))
-    blocks = _folded(part.pixels, part, settings, radiance)
+    blocks = folded(part.pixels, part, settings, radiance)
     return Kept(part, blocks, int(parquet.notes(file)["rays"]), dropped)

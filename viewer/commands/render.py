@@ -1,6 +1,8 @@
 """The command `castray render`."""
 
 import os
+import sys
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -25,6 +27,7 @@ def render(
     options: PathOptions | None = None,
     engine: str = "numpy",
     workers: Annotated[int | None, Whole] = None,
+    cluster: str | None = None,
     until_error: float | None = None,
     adaptive: str = "off",
     record: Path | None = None,
@@ -45,6 +48,10 @@ def render(
         picture but for rounding; or auto: gl where there is a graphics card and it can do what is asked.
     workers
         Most processes to use (default: one for each core). The picture is the same for any number.
+    cluster
+        Address of a dask.distributed scheduler, such as tcp://127.0.0.1:8786, whose workers do the work
+        (needs the package distributed, and castray there). The picture is the same where they are machines
+        like this one. Stopped, it goes on with the same command.
     until_error
         Stop each tile of 16 x 16 pixels when its relative error (root mean of se^2 / (mean^2 + 0.01)) is that
         small; --spp is then the most (4096 unless said).
@@ -63,6 +70,8 @@ def render(
         raise TracerError(f"engine: {engine!r} is not known; choose one of {', '.join(ENGINES)}")
     if engine == "gl" and record is not None:
         raise TracerError("engine: gl keeps no paths; leave out --record, or choose engine numpy")
+    if cluster is not None and (engine != "numpy" or workers is not None):
+        raise TracerError("cluster: its workers trace, with engine numpy; leave out --engine and --workers")
     if workers is not None and not 1 <= workers <= 1024:
         raise TracerError(f"workers: {workers} is not between 1 and 1024")
     settings, steps = settings_and_steps(options)
@@ -80,14 +89,16 @@ def render(
     why = ""
     if engine == "auto":
         engine, why = _chosen(loaded, settings, steps, record)
-    with watched("rendering") as progress:
-        workers = workers or os.cpu_count() or 1
+    common = {"workers": workers or os.cpu_count() or 1, "steps": steps}
+    plan = {"until_error": until_error, "adaptive": adaptive, "engine": engine}
+    with watched("rendering") as progress, _machines(cluster) as machines:
+        common |= {"progress": progress, "cluster": machines}
         if record is not None:
-            picture = tracer.record(
-                loaded, settings, record, record_level or "paths", progress, workers, steps
-            )
+            picture = tracer.record(loaded, settings, record, record_level or "paths", **common)
+        elif machines and until_error is None and adaptive == "off":
+            picture = _going_on(path, loaded, settings, common)
         else:
-            picture = tracer.render(loaded, settings, progress, workers, steps, until_error, adaptive, engine)
+            picture = tracer.render(loaded, settings, **common, **plan)
     tracer.write(picture, path, scene=str(scene))
     features = []
     if explain:
@@ -97,7 +108,36 @@ def render(
     _report(loaded, picture, path, json, features, _kept(record) if record is not None else {})
     if why and not json:
         print(f"engine {picture.engine}: {why}")
+    if machines is not None and machines.lost:
+        return 1
     return 0 if picture.complete else 130
+
+
+def _going_on(path, scene, settings, options):
+    """The picture by a cluster, from where it was stopped if it was, and kept for the next time if it is."""
+    from tracer.trace import unfinished
+
+    settings, place = settings.at_size_of(scene), unfinished.beside(path)
+    so_far = unfinished.resumed(place, scene, settings)
+    picture = tracer.render(scene, settings, **options, so_far=so_far)
+    if picture.complete:
+        unfinished.forget(place)
+    else:
+        done = unfinished.keep(place, so_far, scene, settings)
+        print(
+            f"castray: {place}: {done} of {picture.samples.size} pixels are done; the same command goes on",
+            file=sys.stderr,
+        )
+    return picture
+
+
+def _machines(address):
+    """A context that gives the cluster at that address, or None where there is no address."""
+    if address is None:
+        return nullcontext()
+    from tracer.cluster import connected
+
+    return connected(address)
 
 
 def _chosen(scene, settings, steps, record):
