@@ -4,9 +4,10 @@ import os
 import sys
 import warnings
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, Group
 
 from tracer.settings import TracerError
+from viewer.spoken_help import SpokenFormatter
 from viewer.words import LANGUAGES, Speaker, asked, use
 
 # Its module in viewer/commands/ has a function of that name; what it does is told by the table of words.
@@ -30,8 +31,9 @@ def command_line(say):
         help_format="plaintext",
         version=_version,
         group_commands=say("help.commands"),
-        group_arguments=say("help.arguments"),
-        group_parameters=say("help.parameters"),
+        group_arguments=Group(say("help.arguments"), sort_key=1),
+        group_parameters=Group(say("help.parameters"), sort_key=2),
+        help_formatter=SpokenFormatter(),
     )
     for name in COMMANDS:  # their docstrings are wrapped anew, which plain text is not
         module = f"viewer.commands.{name}:{name}"

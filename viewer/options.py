@@ -4,11 +4,12 @@ from dataclasses import fields, make_dataclass, replace
 from json import dumps
 from typing import Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Group, Parameter
 
 import tracer
 from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
+from viewer.spoken_help import PATH_OPTIONS
 
 SMALL_SIDE = 64  # pixels
 
@@ -55,7 +56,7 @@ def path_options(name, without=(), size="default: the scene's"):
         columns.append(
             ("set", Annotated[tuple[str, ...], Parameter(help=_SET, negative=(), show_default=False)], ())
         )
-    return Parameter(name="*", group="Path options")(
+    return Parameter(name="*", group=Group(PATH_OPTIONS, sort_key=3))(
         make_dataclass(name, columns, frozen=True, namespace={"__module__": __name__})
     )
 

@@ -71,6 +71,16 @@ def test_the_terminal_speaks_the_language_that_is_asked_for(
     assert Speaker(language)("command.view") in capsys.readouterr().out
 
 
+def test_the_path_options_of_a_command_speak_it_too(capsys):
+    for language, other in (("zh", "en"), ("en", "zh")):
+        with pytest.raises(SystemExit):
+            main(["--lang", language, "inspect", "--help"])
+        out = capsys.readouterr().out
+        assert Speaker(language)("help.path_options") in out
+        assert Speaker(other)("help.path_options") not in out
+        assert Speaker(language).setting("spp") in out
+
+
 @pytest.mark.parametrize("words", [("--lang", "fr"), ("--lang",), ("--lang=",)])
 def test_a_language_that_is_not_known_is_refused_with_those_that_are(words, capsys):
     with pytest.raises(SystemExit) as end:

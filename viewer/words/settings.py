@@ -4,6 +4,8 @@ WORDS = {
     "zh": {
         "setting.width": "图像宽度，以像素计（默认：依场景）",
         "setting.height": "图像高度，以像素计（默认：依场景）",
+        "setting.size": "宽度和高度，以像素计（默认：依场景，有些命令会缩小）",
+        "setting.set": "换一种说法读场景里的一个词：OBJECT.WORD=VALUE，如 white.reflectance=0.5；可以重复",
         "setting.spp": "每像素的样本数",
         "setting.seed": "所有随机数的种子",
         "setting.max_depth": "最长的路径：1 = 只看直接可见的自发光，2 = 加上直接光照，-1 = 不限",

@@ -20,6 +20,8 @@ WORDS = {
         "help.commands": "Commands",
         "help.arguments": "Arguments",
         "help.parameters": "Parameters",
+        "help.path_options": "Path options",
+        "help.choices": "{meaning}: {choices}",
         # castray inspect
         "inspect.head": "pixel ({x}, {y}) of {scene}, {width} x {height}, {integrator}, seed {seed}",
         "inspect.path": "sample {sample}, event by event",
@@ -109,6 +111,8 @@ WORDS = {
         "help.commands": "命令",
         "help.arguments": "参数",
         "help.parameters": "选项",
+        "help.path_options": "路径选项",
+        "help.choices": "{meaning}：{choices}",
         "inspect.head": "{scene} 的像素 ({x}, {y})，{width} x {height}，{integrator}，种子 {seed}",
         "inspect.path": "样本 {sample}，逐个事件",
         "inspect.depth": "深度 {depth}",
