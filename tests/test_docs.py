@@ -129,6 +129,13 @@ def test_the_code_of_the_chinese_readme_is_that_of_the_english_one_but_for_comme
         assert english and chinese == english, f"only in one of them: {set(chinese) ^ set(english)}"
 
 
+def test_the_chinese_readme_goes_block_by_block_with_the_english_one():
+    def shape(name):
+        return [len(re.split(r"\n{2,}", part.strip())) for part in re.split(r"(?m)^## ", text(name))]
+
+    assert shape("README.zh-CN.md") == shape("README.md")
+
+
 def test_every_link_leads_to_a_file():
     for name in PAPERS:
         for target in re.findall(r"\]\(([^)#]+)\)", text(name)):
