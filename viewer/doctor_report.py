@@ -51,8 +51,13 @@ def lacking(verdicts, most=4):
 
 def _print_first(finding, say, console):
     console.print(_head(finding, say))
-    if finding.bug is not None:
-        console.print(Text(f"  {bug_title(finding.bug, say)}", style="italic"))
+    for bug in filter(None, (finding.bug, *finding.alike)):
+        said = (
+            bug_title(bug, say)
+            if bug == finding.bug
+            else say("doctor.or_title", bug=bug, title=bug_title(bug, say))
+        )
+        console.print(Text(f"  {said}", style="italic"))
     table = Table(box=None, show_header=False, padding=(0, 0, 0, 2))
     for name, said in _said(finding, say):
         table.add_row(Text(say(f"doctor.{name}"), style="dim"), said)
@@ -95,8 +100,18 @@ def _said(finding, say):
         yield "first", Text(place(finding.first, say))
         if finding.command:
             yield "see", Text(finding.command)
+    for bug, wrong in wrong_code(finding):
+        yield "code", Text(f"{bug}: {wrong}" if finding.alike else wrong)
     if finding.lesson is not None:
         yield "lesson", Text(lesson(finding))
+
+
+def wrong_code(finding):
+    """What to look for in one's own program: (id, code) of the mistake that is named and of those like it."""
+    from lessons.zoo import ZOO
+
+    named = filter(None, (finding.bug, *finding.alike))
+    return [(bug, ZOO[bug].wrong) for bug in named if bug in ZOO and ZOO[bug].wrong]
 
 
 def place(first, say):
@@ -139,19 +154,28 @@ def _print_other(finding, say, console):
 
 
 def _print_rules(verdicts, say, console):
+    """What fired or abstained with its counts, what holds by name: the finding stays in sight."""
+    holding = [v for v in verdicts if v.state == "clean" and not v.abstained]
+    rest = [v for v in verdicts if v.state != "not_testable" and v not in holding]
+    if rest:
+        _print_counts(rest, say, console)
+    if holding:
+        said = say("doctor.holding", n=len(holding), rules=say.listed(*(v.rule.id for v in holding)))
+        console.print(Text(said, style="dim"))
+    _print_untestable([v for v in verdicts if v.state == "not_testable"], say, console)
+
+
+def _print_counts(verdicts, say, console):
     table = Table(box=None, pad_edge=False)
     for name in ("rule", "says"):
         table.add_column(say(f"doctor.{name}"), no_wrap=True)
     for name in ("checked", "failed", "abstained"):
         table.add_column(say(f"doctor.{name}"), justify="right", no_wrap=True)
     for verdict in sorted(verdicts, key=lambda v: v.state != "fired"):
-        if verdict.state == "not_testable":
-            continue
         state = Text(say(f"doctor.{verdict.state}"), style=_STYLE[verdict.state])
         counts = (str(count or "") for count in (verdict.failed, verdict.abstained))
         table.add_row(verdict.rule.id, state, str(verdict.checked), *counts)
     console.print(table)
-    _print_untestable([v for v in verdicts if v.state == "not_testable"], say, console)
 
 
 def _print_untestable(verdicts, say, console):

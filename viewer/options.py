@@ -37,9 +37,9 @@ def _integer(text, place=""):
 _SET = "say a word of the scene differently: OBJECT.WORD=VALUE, as in white.reflectance=0.5; may be repeated"
 
 
-def path_options(name, without=(), size="default: the scene's"):
+def path_options(name, without=(), size="default: the scene's", defaults=None):
     """The options that decide a path's numbers as a class of that name, made from the one place where they
-    are declared; those in `without` are left out."""
+    are declared; those in `without` are left out, and defaults {name: value} take the place of theirs."""
     text = f"width and height in pixels ({size})"
     shape = Annotated[
         tuple[int, int] | None, Parameter(help=text, converter=two_whole, n_tokens=2, negative=())
@@ -51,7 +51,8 @@ def path_options(name, without=(), size="default: the scene's"):
         choices = f.metadata["choices"]
         text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
         converter = _whole if f.type is int else None
-        columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], f.default))
+        default = (defaults or {}).get(f.name, f.default)
+        columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], default))
     if "set" not in without:
         columns.append(
             ("set", Annotated[tuple[str, ...], Parameter(help=_SET, negative=(), show_default=False)], ())
@@ -69,6 +70,7 @@ CheckOptions = path_options(  # without what the learner's own code decides
     ("set", "integrator", "strategy", "heuristic", "light_sampling", "sampler", "replicates", "precision",
      "jitter", "roulette", "max_depth", "bug"),
     "default: 24 24",
+    {"spp": 8},
 )  # fmt: skip
 BenchOptions = path_options(  # without what `castray bench` measures
     "BenchOptions",

@@ -22,7 +22,7 @@ def is_picture(text):
 def opinion_of(path, scene, options=None, gamma=None, output=None):
     """The Opinion on a picture, its scene and the Album it was compared with. Raises TracerError."""
     if scene is None:
-        raise TracerError(f"{path}: give --scene, the scene that this picture is of")
+        raise TracerError(f"{path}: give --scene, the scene that this picture is of, as in --scene cornell")
     spp = _spp(path, options)
     if output is not None:
         check_path(output)

@@ -81,6 +81,17 @@ def test_several_light_samples_are_one_if_their_mean_counts(tmp_path, mean, rule
 
 
 @pytest.mark.slow
+def test_a_density_asked_before_the_bounce_is_told_as_the_light_samples(tmp_path):
+    sample, density = "wi = material.sample(wo, n)", "pdf = material.pdf(wi, wo, n)"
+    early = TEXT.replace(f"{sample}\n        {density}", f"{density}\n        {sample}")
+    assert early != TEXT
+    first, *others = judged(written(tmp_path, early)).findings
+    assert first.rule == "bounce-pdf"
+    assert "the density of the light sample's direction" in first.explanation
+    assert not any("= 1 x" in found.explanation for found in others)  # which explains nothing
+
+
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_the_starter_draws_what_castray_draws():
     """Mean of the picture within 4 standard errors, which are 3 % of it; twice as bright is not."""

@@ -49,8 +49,9 @@ def finding(row, say):
             return say("pic.factor", factor=row.found.factor)
         return " + ".join(row.found.bugs)
     named = bugs(row.found, say)
-    title = bug_title(row.found.bug, say) if row.found.bug else counted(row.found, say)["title"]
-    return f"{named} {title}".strip()
+    if not named:  # the law itself is in the next column
+        return row.found.explanation or counted(row.found, say)["title"]
+    return f"{named} {bug_title(row.found.bug, say)}"
 
 
 def _without_name(said, row):

@@ -1,5 +1,6 @@
 """The command `castray check`."""
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -60,9 +61,32 @@ def check(
         print_json(diagnosis.as_dict())
     else:
         from viewer.doctor_report import print_diagnosis
+        from viewer.words import Speaker
 
         print_diagnosis(diagnosis, trace)
+        if diagnosis.findings:
+            print("\n" + Speaker()("doctor.opens", command=_opening(file, scene, trace.settings)))
     return 1 if diagnosis.findings else 0
+
+
+def _opening(file, scene, settings):
+    """The command that shows in the viewer what was judged."""
+    from viewer.checking.learner import settings_of
+
+    words = [
+        "castray view",
+        shlex.quote(str(file)),
+        *(["--scene", shlex.quote(scene)] if scene != "cornell" else []),
+    ]
+    plain = settings_of(None)
+    if (settings.width, settings.height) != (plain.width, plain.height):
+        words.append(f"--size {settings.width} {settings.height}")
+    words += [
+        f"--{name} {getattr(settings, name)}"
+        for name in ("spp", "seed", "hemisphere", "accel")
+        if getattr(settings, name) != getattr(plain, name)
+    ]
+    return " ".join(words)
 
 
 def _folder(folder, scene, seconds, csv, html, options, json):

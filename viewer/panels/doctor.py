@@ -2,7 +2,7 @@
 
 from lessons.course import lesson
 from viewer import examining, picture_examining
-from viewer.doctor_report import bug_title, bugs, chance, counted, equation, place
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, place, wrong_code
 from viewer.examining import Chart, Examiner
 from viewer.panels.panel import Panel
 from viewer.picture_examining import Guesser
@@ -21,7 +21,7 @@ TEMPLATE = """
     <p>{{ f.law }}</p><p v-if="f.formula"><code>{{ f.formula }}</code></p>
     <table v-if="f.right" class="beside"><tbody><tr><th scope="row">{{ w.exam_recorded }}</th><td class="number bad" :data-testid="'finding-recorded-' + f.index" :data-exact="JSON.stringify(f.exact.recorded)">{{ f.recorded }}</td></tr>
       <tr><th scope="row">{{ w.exam_right }}</th><td class="number ok" :data-testid="'finding-right-' + f.index" :data-exact="JSON.stringify(f.exact.right)">{{ f.right }}</td></tr></tbody></table>
-    <p v-if="f.why">{{ f.why }}</p><p v-if="f.chance" class="dim">{{ f.chance }}</p>
+    <p v-if="f.why">{{ f.why }}</p><p v-for="c in f.code" :key="c">{{ c }}</p><p v-if="f.chance" class="dim">{{ f.chance }}</p>
     <p class="links"><button v-if="f.place" :data-testid="'finding-event-' + f.index" @click="trigger('doctor_go', [f.index])">{{ f.place }}</button>
       <button :data-testid="'finding-where-' + f.index" @click="trigger('doctor_where', [f.index])">{{ w.exam_where }}</button>
       <button v-if="f.lesson" :data-testid="'finding-lesson-' + f.index" @click="tab = 'lesson'; trigger('lesson_open', [f.lesson.number, true])">{{ f.lesson.title }}</button></p></li></ol>
@@ -105,6 +105,7 @@ def _cause(index, finding, chart, say):
         "right": equation(finding.what, finding.right) if both else "",
         "exact": {"recorded": finding.recorded, "right": finding.right},
         "why": finding.explanation,
+        "code": [say("doctor.code_of", bug=bug, code=code) for bug, code in wrong_code(finding)],
         "chance": "" if finding.p is None else chance(finding, say),
         "place": place(first, say) if first else "",
         "lesson": None if finding.lesson is None else _lesson(finding.lesson, say),

@@ -123,7 +123,7 @@ def nothing_absorbed(evidence):
     rows = np.arange(end.size)
     wrong = np.zeros(end.size, bool)
     wrong[lost[bad]] = True
-    return Outcome("end", rows, wrong, np.zeros_like(wrong), end, end, "reason")
+    return Outcome("end", rows, wrong, np.zeros_like(wrong), what="reason")
 
 
 def light_due(evidence):

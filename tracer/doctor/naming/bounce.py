@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracer.doctor.naming.case import SHARE, Clue, first
-from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials
+from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials, to_the_lamp
 from tracer.frame import dot
 
 _ZERO = "the density of this direction is 0, and the path goes on: the throughput is 0/0"
@@ -50,6 +50,11 @@ def density(case):
                 lambda: local(case.evidence, given, wi, "pdf"),
             ),
             ("S07", "recorded = right / G1: the density of visible normals lacks their masking", masked),
+            (
+                None,
+                "recorded is the density of the light sample's direction, not of the bounce's",
+                lambda: to_the_lamp(case, given, "pdf"),
+            ),
             (None, "recorded = right x pi", right * np.pi),
             (None, "recorded = right / pi", right / np.pi),
             (None, "recorded = right / cos", right / cos),

@@ -40,7 +40,7 @@ def words(case):
         return ""
     ratio = ratio[..., there]
     if (value := _constant(ratio)) is not None:
-        return f"recorded = {_spelled(value)} x right"
+        return "" if abs(value - 1.0) <= CLOSE else f"recorded = {_spelled(value)} x right"
     return _product(ratio, _quantities(case, there))
 
 
@@ -110,6 +110,8 @@ def _quantities(case, there):
             value = np.asarray(_of_event(case, name), float)[..., there]
         except (KeyError, ValueError):
             continue
+        if np.array_equal(value, case.recorded[..., there], equal_nan=True):
+            continue  # the judged number itself says nothing about itself
         some = value[np.isfinite(value) & (value != 0.0)]
         if some.size and np.ptp(some) > 1e-2 * np.abs(some).max():
             found[name] = value

@@ -16,6 +16,14 @@ def exchanged(evidence, given, wi, what):
     return evidence.asked(**given | {"wo": wi}, wi=given["wo"], what=what)
 
 
+def to_the_lamp(case, given, what):
+    """What the BSDF says of the direction in which a lamp was looked for there; nan where none was."""
+    row = case.evidence.before(case.kind, "light")[case.rows]
+    wi = case.evidence("light.wi").take(np.maximum(row, 0), axis=1)
+    same = (row >= 0) & (case.depth == case.evidence.trace.tables["light"].depth.take(np.maximum(row, 0)))
+    return np.where(same, case.evidence.asked(**given, wi=wi, what=what), np.nan)
+
+
 def local(evidence, given, wi, what):
     """What the BSDF says of world directions taken for local ones."""
     material = evidence.scene.bsdf_of.take(given["primitive"])

@@ -42,6 +42,7 @@ def walls(rgb, right, scene, eight_bits):
     count = resampled(known.astype(np.float64), height, width)
     mine = resampled(np.where(known, rgb, 0.0), height, width) / np.maximum(count, 1e-9)
     should = np.clip(right, 0.0, 1.0) if eight_bits else right
+    coarse = tuple(resampled(picture, CELLS, CELLS) for picture in (mine, should))  # what `predicted` has
     inside, filled = _inside(shape), resampled((shape >= 0).astype(np.float64), CELLS, CELLS)
     for number in np.unique(shape):
         if number < 0:
@@ -49,8 +50,9 @@ def walls(rgb, right, scene, eight_bits):
         here = shape == number
         deep = here & inside
         used = deep if deep.sum() >= _FEW else here
-        ratio = _over(mine[used].mean(axis=0), should[used].mean(axis=0))
         cells = resampled(here.astype(np.float64), CELLS, CELLS) > _MOSTLY * filled
+        a, b, used = (*coarse, cells) if cells.any() else (mine, should, used)
+        ratio = _over(a[used].mean(axis=0), b[used].mean(axis=0))
         yield Wall(scene.shapes[number].name, ratio, float(here.mean()), cells)
 
 
