@@ -55,9 +55,15 @@ class Cluster:
     def _lost_if_broken(self):
         try:
             yield
+        except TracerError:
+            raise
         except (CancelledError, BrokenExecutor) as error:
             self.lost = True
             raise Lost(f"cluster: {self.name} is lost{_why(error)}") from None
+        except Exception as error:  # castray is not there, a task that kills every worker, ...
+            self.lost = True
+            kind = type(error).__name__
+            raise Lost(f"cluster: a worker of {self.name} failed: {kind}{_why(error)}") from None
 
 
 def told(job, task):

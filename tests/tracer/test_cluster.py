@@ -52,7 +52,10 @@ class Backwards(ThreadPoolExecutor):
             while self._waiting:
                 future, function, words = self._waiting.pop()
                 if future.set_running_or_notify_cancel():
-                    future.set_result(function(*words))
+                    try:
+                        future.set_result(function(*words))
+                    except tracer.TracerError as error:
+                        future.set_exception(error)
 
 
 def same(a, b):
@@ -152,6 +155,29 @@ def test_a_mistake_in_a_task_is_told_and_ends_the_render(scene):
 
     with pytest.raises(tracer.TracerError, match="something is wrong"):
         list(many.traced(fails, [1, 2, 3], threads(2)))
+
+
+def test_a_worker_that_lacks_something_is_told_in_one_line_and_what_is_done_is_kept(scene, monkeypatch):
+    calls = []
+
+    def lacking(job, task):
+        calls.append(task)
+        if len(calls) > 3:
+            raise ModuleNotFoundError("No module named 'tracer'")
+        return cluster.fingerprint(), job(task)
+
+    monkeypatch.setattr(cluster, "told", lacking)
+    with pytest.warns(many.ClusterWarning, match=r"failed: ModuleNotFoundError \(No module named 'tracer'\)"):
+        stopped = tracer.render(scene, SETTINGS, cluster=threads(1))
+    assert not stopped.complete
+    assert stopped.samples.any()
+
+
+def test_a_recording_of_too_many_parts_is_refused_before_anything_is_written(scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(folder, "MOST_PARTS", 5)
+    with pytest.raises(tracer.TracerError, match="would have 15 parts, and a recording has 5 at most"):
+        tracer.record(scene, SETTINGS, tmp_path / "rec")
+    assert not (tmp_path / "rec").exists()
 
 
 def test_tasks_of_a_large_render_are_a_hundred_thousand_and_keep_pixels_together(monkeypatch):

@@ -23,6 +23,7 @@ FORMAT = 1
 HEADER = "recording.json"
 PARTIAL = ".partial"
 LEVELS = ("paths", "events")
+MOST_PARTS = 99_999
 MOST_HEADER = 1 << 26  # bytes
 NEEDED = ("level", "parts", "lanes", "settings", "scene", "fingerprint", "names")
 
@@ -109,7 +110,7 @@ def _check(file, header):
         raise TracerError(f"{file}: says nothing of {absent[0]}")
     if header["level"] not in LEVELS:
         raise TracerError(f"{file}: level {header['level']!r} is not known; there are {', '.join(LEVELS)}")
-    if type(header["parts"]) is not int or not 1 <= header["parts"] < 100_000:
+    if type(header["parts"]) is not int or not 1 <= header["parts"] <= MOST_PARTS:
         raise TracerError(f"{file}: parts {header['parts']!r} is not a number of parts")
     for name in ("settings", "scene", "fingerprint", "names"):
         if not isinstance(header[name], dict):

@@ -81,10 +81,16 @@ def _begun(scene, settings, path, level, steps):
     lanes = PATHS_IN_PART
     if level == "events":
         lanes = max(film.BLOCK, min(waves.LANES, int(PART_BYTES / of_path) // film.BLOCK * film.BLOCK))
+    parts = sum(1 for _ in parts_of(settings, lanes))
+    if parts > folder.MOST_PARTS:
+        raise TracerError(
+            f"{path}: would have {parts} parts, and a recording has {folder.MOST_PARTS} at most; "
+            "ask for fewer --spp or a smaller --size"
+        )
     header = {
         "format": folder.FORMAT,
         "level": level,
-        "parts": sum(1 for _ in parts_of(settings, lanes)),
+        "parts": parts,
         "lanes": lanes,
         "settings": settings.as_dict(),
         "scene": {"name": scene.name, "description": description, "files": sorted(files)},
