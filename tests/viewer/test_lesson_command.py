@@ -80,6 +80,7 @@ def test_without_a_name_the_first_open_task_is_meant(ask):
         (("x",), "'x' is not a whole number"),
         (("--check", "1"), "which one?"),
         (("4", "--check", "radius"), "needs your answer"),
+        (("4", "--check", "radios", "2.5"), "'radios' is no task of it"),
         (("4", "--check", "rim", "a", "b"), "two whole numbers"),
         (("4", "--hint", "nothing"), "there are radius, rim"),
         (("4", "--hint", "rim", "--solution", "rim"), "one at a time"),

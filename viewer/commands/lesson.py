@@ -159,8 +159,8 @@ def _verdict(run, task, verdict, done, words):
 
 def _task_and_answer(run, said, progress):
     lesson = run.lesson
-    if said[0] in lesson.tasks:
-        name, answer = said[0], said[1:]
+    if said[0] in lesson.tasks or (len(said) > 1 and said[0].isalpha()):  # a word before an answer is a name
+        name, answer = lesson.task(said[0]).id, said[1:]
     else:
         solved = progress.solved(lesson.number)
         name = next((t for t in lesson.tasks if t not in solved), next(iter(lesson.tasks)))
