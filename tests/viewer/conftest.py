@@ -35,6 +35,47 @@ def browser(chromium):
         running.close()
 
 
+@pytest.fixture(scope="module")
+def newcomer(serve, tmp_path_factory):
+    """Starts viewers of somebody who has done nothing yet."""
+
+    def start(*words):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("reader")))
+            return serve(*words)
+
+    return start
+
+
+@pytest.fixture(scope="module")
+def tab(browser):
+    """Opens an address in a tab that the tests of a file share; its console may have had no complaints."""
+    opened = []
+
+    def open_tab(address):
+        context = browser.new_context(viewport={"width": 1280, "height": 720}, locale="en-GB")
+        opened.append(listened(context))
+        opened[-1].goto(address)
+        opened[-1].wait_for_selector("html[data-ready]")
+        return opened[-1]
+
+    yield open_tab
+    complaints = [error for page in opened for error in page.errors]
+    for page in opened:
+        page.context.close()
+    assert complaints == []
+
+
+def listened(context):
+    """A new page; console errors go to `page.errors`, the addresses that it asks for to `page.asked`."""
+    page = context.new_page()
+    page.errors, page.asked = [], []
+    page.on("console", lambda m: page.errors.append(m.text) if m.type == "error" else None)
+    page.on("pageerror", lambda e: page.errors.append(str(e)))
+    page.on("request", lambda r: page.asked.append(r.url))
+    return page
+
+
 @pytest.fixture
 def context(browser):
     """A profile of one test: no cookies of another."""
@@ -45,14 +86,10 @@ def context(browser):
 
 @pytest.fixture
 def visit(context):
-    """Opens an address in a new tab and waits until it is ready; console errors go to `page.errors`."""
+    """Opens an address in a new tab and waits until it is ready."""
 
     def open_page(address, ready=True):
-        page = context.new_page()
-        page.errors, page.asked = [], []
-        page.on("console", lambda m: page.errors.append(m.text) if m.type == "error" else None)
-        page.on("pageerror", lambda e: page.errors.append(str(e)))
-        page.on("request", lambda r: page.asked.append(r.url))
+        page = listened(context)
         page.goto(address)
         if ready:
             page.wait_for_selector("html[data-ready]")

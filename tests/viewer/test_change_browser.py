@@ -22,16 +22,9 @@ def viewer(serve):
 
 
 @pytest.fixture(scope="module")
-def page(browser, viewer):
+def page(viewer, tab):
     """One page for all of them, at the tab of changes."""
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-        page = context.new_page()
-        page.errors = []
-        page.on("pageerror", lambda e: page.errors.append(str(e)))
-        page.goto(viewer.address)
-        page.wait_for_selector("html[data-ready]")
-        yield page
-        assert page.errors == []
+    return tab(viewer.address)
 
 
 @pytest.fixture(autouse=True)

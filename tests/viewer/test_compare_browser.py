@@ -25,18 +25,12 @@ def said(*words):
 
 
 @pytest.fixture(scope="module")
-def page(serve, browser):
+def page(serve, tab):
     """One tab with the Compare panel open, the right tracer beside D01."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(serve("cornell_unit", *map(str, SMALL), "--compare", "D01").address)
-    opened.wait_for_selector("html[data-ready]")
+    opened = tab(serve("cornell_unit", *map(str, SMALL), "--compare", "D01").address)
     opened.get_by_test_id("tab-compare").click()
     opened.get_by_test_id("progress").wait_for(state="detached", timeout=60_000)
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return opened
 
 
 @pytest.fixture(scope="module")

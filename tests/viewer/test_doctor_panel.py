@@ -14,16 +14,9 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="module")
-def page(serve, browser):
+def page(serve, tab):
     """One tab of one viewer for all stories."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(serve("cornell_unit", *SMALL, "--bug", "E01").address)
-    opened.wait_for_selector("html[data-ready]")
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return tab(serve("cornell_unit", *SMALL, "--bug", "E01").address)
 
 
 def examine(page):

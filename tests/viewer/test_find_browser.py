@@ -26,17 +26,11 @@ def box(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def page(small, browser):
+def page(small, tab):
     """One tab for all of it, with the Find panel open."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(small.address)
-    opened.wait_for_selector("html[data-ready]")
+    opened = tab(small.address)
     opened.get_by_test_id("tab-find").click()
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return opened
 
 
 @pytest.fixture(scope="module")

@@ -12,24 +12,15 @@ FOUR = lesson(4)
 
 
 @pytest.fixture(scope="module")
-def server(serve, tmp_path_factory):
+def server(newcomer):
     """One viewer with lesson 4 open; its reader has done nothing yet."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("reader")))
-        return serve("--lesson", "4")
+    return newcomer("--lesson", "4")
 
 
 @pytest.fixture(scope="module")
-def page(server, browser):
+def page(server, tab):
     """One tab of it for all tests."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}, locale="en-GB").new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(server.address)
-    opened.wait_for_selector("html[data-ready]")
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return tab(server.address)
 
 
 def read(page, number):

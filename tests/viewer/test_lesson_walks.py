@@ -19,19 +19,9 @@ BEHIND = """id => {
 
 
 @pytest.fixture(scope="module")
-def page(serve, browser, tmp_path_factory):
+def page(newcomer, tab):
     """One tab of one viewer, of somebody who has done nothing yet."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("reader")))
-        server = serve("cornell_unit", *SMALL)
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}, locale="en-GB").new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(server.address)
-    opened.wait_for_selector("html[data-ready]")
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return tab(newcomer("cornell_unit", *SMALL).address)
 
 
 class Mouse:

@@ -86,16 +86,10 @@ class Reader:
 
 
 @pytest.fixture(scope="module")
-def page(serve, browser):
+def page(serve, tab):
     """One tab of one viewer for all stories."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(serve("cornell", "--size", f"{SIDE}", f"{SIDE}", "--spp", f"{SPP}", "--bug", "D01").address)
-    opened.wait_for_selector("html[data-ready]")
-    yield opened
-    assert errors == []
-    opened.context.close()
+    size = ("--size", f"{SIDE}", f"{SIDE}", "--spp", f"{SPP}")
+    return tab(serve("cornell", *size, "--bug", "D01").address)
 
 
 def test_black_stripes(page):

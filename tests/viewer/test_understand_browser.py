@@ -13,16 +13,9 @@ START = "scene=cornell_unit&width=64&height=64&spp=8&max_depth=6&x=30&y=45&path=
 
 
 @pytest.fixture(scope="module")
-def page(serve, browser):
+def page(serve, tab):
     """One tab of one viewer for all tests of this file."""
-    opened = browser.new_context(viewport={"width": 1280, "height": 720}).new_page()
-    errors = []
-    opened.on("console", lambda m: errors.append(m.text) if m.type == "error" else None)
-    opened.goto(serve("cornell_unit", *SIZE).address)
-    opened.wait_for_selector("html[data-ready]")
-    yield opened
-    assert errors == []
-    opened.context.close()
+    return tab(serve("cornell_unit", *SIZE).address)
 
 
 @pytest.fixture(scope="module")
