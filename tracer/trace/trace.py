@@ -97,7 +97,9 @@ class Trace:
         field = next(k for k in KINDS if k.name == kind).field(name)
         if field.carried:
             return None
-        hits = self.tables[HIT.name].take(self.hit_of(kind)) if kind != HIT.name else table
+        hits = self.tables[HIT.name]
+        if kind != HIT.name:
+            hits = hits.take(self.hit_of(kind)) if hits.path.size else replace(hits, columns={})
         try:
             with np.errstate(all="ignore"):
                 return field.derive(table.columns, hits.columns, self.scene)

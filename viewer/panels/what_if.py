@@ -46,8 +46,8 @@ def show(session, say):
     kind = event.kind.name
     found = {
         "at": f"{session.cursor.x},{session.cursor.y},{session.cursor.path}:",
-        "note": say(f"what_if.at.{kind}" if _choice(event) else "what_if.at.none"),
-        "knobs": _KNOBS[kind](session, say) if _choice(event) else [],
+        "note": say(f"what_if.at.{kind}" if _choice(session) else "what_if.at.none"),
+        "knobs": _KNOBS[kind](session, say) if _choice(session) else [],
         "supposed": [],
     }
     if there is None:
@@ -57,9 +57,11 @@ def show(session, say):
     return found | {"supposed": supposed} | _outcome(session, there, say)
 
 
-def _choice(event):
-    """Whether the event could have gone otherwise."""
-    return event.kind.name in KINDS and not event.values.get("delta", False)
+def _choice(session):
+    """Whether the event could have gone otherwise; a log may lack the surface that it is at."""
+    event, before = session.event, session.path.events[: session.cursor.event]
+    there = any(e.kind.name == "hit" for e in before)
+    return there and event.kind.name in KINDS and not event.values.get("delta", False)
 
 
 def _knob(event, part, label, value, low, high, step):

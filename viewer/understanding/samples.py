@@ -48,7 +48,7 @@ def _without_f(v, hit):
 
 def reasons(record, scene):
     """Reasons of the light samples that bring nothing, or less, alike ones together."""
-    samples = list(places(record, "light"))
+    samples = [place for place in places(record, "light") if place.hit]  # a log may lack it
     total = [sum((s.event.depth > 0) == deep for s in samples) for deep in (False, True)]
     groups = {}
     for sample in samples:

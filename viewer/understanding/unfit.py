@@ -19,9 +19,10 @@ def reasons(record, scene, own=True):
     castray traced it, so that what is no number came out so and is not just left out."""
     there = list(places(record, *KINDS))
     of = {kind: sum(place.event.kind.name == kind for place in there) for kind in KINDS}
+    seen = [place for place in there if place.hit]  # a log may lack the surface
     found = [("result", place, *both) for place in there if (both := _result(record, place)) is not None]
-    found += _material([place for place in there if not _astray(place)], scene)
-    found += [("direction", place, place.event.values["wi"], np.nan) for place in there if _astray(place)]
+    found += _material([place for place in seen if not _astray(place)], scene)
+    found += [("direction", place, place.event.values["wi"], np.nan) for place in seen if _astray(place)]
     groups = {}
     for what, place, recorded, right in found:
         known = np.isfinite(recorded).all() and (what != "result" or np.isfinite(right).all())

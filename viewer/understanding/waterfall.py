@@ -91,7 +91,8 @@ def _largest(group):
 
 
 def _exact(value):
-    return Fraction(float(value))
+    """A number as the film counts it: 0 where it is none, or was not recorded."""
+    return Fraction(float(value)) if np.isfinite(value) else Fraction(0)
 
 
 def _share(colour, paths):

@@ -52,14 +52,14 @@ def _summary(record):
 
 
 def _least(record):
-    """Where the least contribution is, (path, event)."""
+    """Where the least contribution is, (path, event); None where none was recorded."""
     given = [
         (luminance(event.values["contribution"]), k, event.step)
         for k, path in enumerate(record.paths)
         for event in path.events
         if "contribution" in event.values
     ]
-    return min(given)[1:]
+    return min(given)[1:] if given else None
 
 
 def _invalid(record):
@@ -84,6 +84,8 @@ def _counted(record):
     for bar in waterfall(record):
         if bar.kind == FILM:
             path, step = bar.place
+            if not np.isfinite(record.paths[path].radiance).all():
+                continue  # it was not recorded
             if np.allclose(
                 record.paths[path].radiance, carried(record.paths[path]), rtol=unfit.OFF, atol=0.0
             ):
@@ -100,6 +102,8 @@ def _alone(record):
     if len(given) < 3 or not given[k] > ALONE * total > 0:
         return
     giving = [e for e in record.paths[k].events if "contribution" in e.values]
+    if not giving:  # a log may say what a path brings and not what of
+        return
     most = max(giving, key=lambda e: luminance(e.values["contribution"]))
     values = {
         "share": f"{100.0 * given[k] / total:.3g}",

@@ -159,14 +159,17 @@ def _summed(tables):
 
 
 def _paths(tables, place, size):
-    """Columns of the table of paths; radiance and end as END has them, radiance else as the sum of terms."""
+    """Columns of the table of paths; radiance and end as END has them, radiance else as the sum of terms.
+    What only some of the paths say is not known."""
     end = tables["end"]
+    every = {kind: np.array_equal(tables[kind].path, np.arange(size)) for kind in ("camera", "end")}
     paths = dict(place)
     film = tables["camera"]["film"]
-    if film is not None:
+    if film is not None and every["camera"]:
         paths["film"] = film
     if end["radiance"] is not None:
-        paths["radiance"] = end["radiance"]
+        if every["end"]:
+            paths["radiance"] = end["radiance"]
     elif all(
         tables[kind]["contribution"] is not None
         for kind in ("hit", "light", "escape")
@@ -179,8 +182,8 @@ def _paths(tables, place, size):
                     gain = tables[kind]["contribution"][channel]
                     total[channel] += np.bincount(tables[kind].path, gain, size)
         paths["radiance"] = total
-        end.columns["radiance"] = total
-    if end["reason"] is not None:
+        end.columns["radiance"] = total[:, end.path]
+    if end["reason"] is not None and every["end"]:
         paths["end"] = end["reason"]
     paths["vertices"] = np.bincount(tables["hit"].path, minlength=size)
     for name in ("reason", "radiance"):
