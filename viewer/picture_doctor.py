@@ -1,7 +1,5 @@
 """`castray doctor PICTURE`: what a picture alone says."""
 
-from pathlib import Path
-
 from lessons.zoo import ZOO
 from lessons.zoo.pictures import album, mixtures, suited
 from tracer.doctor.picture import judged, opened
@@ -10,13 +8,6 @@ from tracer.settings import TracerError
 from viewer.options import DoctorOptions, scene_of
 from viewer.progress import watched
 from viewer.words import Speaker
-
-KINDS = (".png", ".ppm", ".pgm", ".exr", ".npy", ".hdr", ".pfm", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
-
-
-def is_picture(text):
-    """Whether a command line argument names a picture."""
-    return Path(text).suffix.lower() in KINDS
 
 
 def opinion_of(path, scene, options=None, gamma=None, output=None):

@@ -5,9 +5,11 @@ from pathlib import PurePath
 from typing import Any
 
 from tracer.doctor.picture import opened
+from tracer.picture import is_picture
 from tracer.settings import TracerError
 from viewer.comparing.comparer import desk_of
-from viewer.picture_doctor import is_picture, opinion_on
+from viewer.comparing.rival import Rival
+from viewer.picture_doctor import opinion_on
 from viewer.picture_report import said_of
 from viewer.worker import Stopped
 
@@ -16,7 +18,7 @@ from viewer.worker import Stopped
 class Guess:
     """What the doctor said of a picture's file."""
 
-    name: str
+    rival: Rival
     busy: bool = False
     opinion: Any = None
     album: Any = None
@@ -26,19 +28,19 @@ class Guess:
         """There is nothing to let go of."""
 
 
-def file_of(session):
-    """The picture's file that a session compares with; None if it compares with none."""
+def rival_of(session):
+    """The Rival in a picture's file that a session compares with; None if it compares with none."""
     desk = desk_of(session)
     found = desk is not None and not desk.rival.traced and is_picture(desk.rival.name)
-    return desk.rival.name if found else None
+    return desk.rival if found else None
 
 
 def guess_of(session):
     """The Guess at the file that a session compares with; None if there is none."""
-    name, guess = file_of(session), session.desk.get("guess")
-    if name is not None and (guess is None or guess.name != name):
-        guess = session.desk["guess"] = Guess(name)
-    return guess if name is not None else None
+    rival, guess = rival_of(session), session.desk.get("guess")
+    if rival is not None and (guess is None or guess.rival is not rival):
+        guess = session.desk["guess"] = Guess(rival)
+    return guess if rival is not None else None
 
 
 class Guesser:
@@ -58,7 +60,8 @@ class Guesser:
         def job():
             if session.desk.get("guess") is not guess:
                 raise Stopped
-            return opinion_on(opened(guess.name), scene)
+            with guess.rival.file() as file:
+                return opinion_on(opened(file), scene)
 
         def done(found):
             guess.busy, (guess.opinion, guess.album) = False, found
@@ -78,7 +81,7 @@ def shown(session, say):
     if guess is None:
         return None
     told = {
-        "head": say("exam.picture", name=PurePath(guess.name).name),
+        "head": say("exam.picture", name=PurePath(guess.rival.name).name),
         "busy": guess.busy,
         "verdict": "",
         "hypotheses": [],

@@ -1,17 +1,8 @@
 """A picture of castray's in the viewer: the scene and the settings that its header names, traced again."""
 
-from pathlib import Path
-
 import tracer
 from tracer.settings import Settings, TracerError
 from viewer import app
-
-KINDS = (".exr", ".png", ".npy", ".hdr", ".pfm", ".jpg", ".jpeg")
-
-
-def is_picture(text):
-    """Whether a command line argument names a picture's file."""
-    return Path(text).suffix.lower() in KINDS
 
 
 def serve_picture(text, port=None, open_browser=True, against=None):

@@ -1,6 +1,7 @@
 """Files from the page: what is opened, what is refused in one clear line; nothing is left lying about."""
 
 import http.client
+import json
 import re
 import tempfile
 
@@ -9,7 +10,14 @@ import pytest
 from suite import ROOT
 
 import tracer
+from tracer.picture import StoredPicture
+from viewer import picture_examining
 from viewer.opening.uploads import LARGEST, MOST_PIXELS, check_size, named, opened
+from viewer.panels import all_panels
+from viewer.session import Session
+from viewer.understanding.why import why
+from viewer.words import Speaker
+from viewer.worker import outcome
 
 SCENES = ROOT / "scenes"
 TOML = (SCENES / "furnace.toml").read_text(encoding="utf-8")
@@ -85,6 +93,81 @@ def test_scenes_and_pictures_are_what_they_are_by_the_command(tmp_path):
     np.save(tmp_path / "p.npy", np.full((4, 6, 3), 0.5, np.float32))
     upload = opened("p.npy", (tmp_path / "p.npy").read_bytes(), None)
     assert upload.rival.picture.rgb.shape == (4, 6, 3) and upload.rival.name == "p.npy"
+
+
+class Now:
+    """A worker and a window that do at once what they are asked."""
+
+    def do(self, job, done, failed):
+        call, told = outcome(job, done, failed)
+        call(told)
+
+    def show(self, panel):
+        """Nobody looks."""
+
+
+def test_the_doctor_reads_a_compared_picture_that_came_from_the_page(tmp_path, monkeypatch):
+    tracer.write(StoredPicture(np.full((16, 16, 3), 0.5, np.float32)), tmp_path / "mine.png")
+    upload = opened("mine.png", (tmp_path / "mine.png").read_bytes(), None)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.png").write_bytes(b"another file of that name, where the viewer was started")
+    session = Session(tracer.load("furnace"), tracer.Settings(width=16, height=16, spp=1), tracer.load)
+    session.rivals["mine.png"], session.against = upload.rival, "mine.png"
+    monkeypatch.setattr(picture_examining, "opinion_on", lambda given, scene: (given, None))
+    now = Now()
+    now.session = session
+    picture_examining.Guesser(now, now).guess()
+    guess = picture_examining.guess_of(session)
+    assert guess.error is None and guess.opinion[0].shape == (16, 16, 3)
+
+
+def test_a_log_that_says_only_what_paths_bring_opens_with_its_reasons():
+    ends = [
+        {
+            "path": 4 * x + k,
+            "x": x,
+            "y": 2,
+            "sample": k,
+            "kind": "end",
+            "radiance": [9.0 * (k == 0), least, 0.0],
+        }
+        for x, least in ((1, 0.0), (2, -1.0))
+        for k in range(4)
+    ]
+    lines = [{"castray": 1, "tracer": "mine"}, *ends]
+    given = opened("a.jsonl", "\n".join(map(json.dumps, lines)).encode(), tracer.load("furnace")).given
+    bright, negative = (why(given.record(x, 2), given.scene, own=False) for x in (1, 2))
+    assert "negative" in [reason.key for reason in negative]
+    assert not {"negative", "alone"} & {reason.key for reason in bright}
+
+
+UP = {"x": 3, "y": 4, "depth": 0, "wi": [0.0, 1.0, 0.0]}
+ODD = {
+    "light samples alone": [
+        {**UP, "sample": 0, "kind": "light", "visible": False, "contribution": [0, 0, 0]}
+    ],
+    "bounces alone": [{**UP, "sample": 0, "kind": "bounce", "pdf": 0.3, "f": [0.1, 0.1, 0.1]}],
+    "some ends": [
+        {**UP, "sample": 0, "kind": "camera", "film": [3.5, 4.5]},
+        {**UP, "sample": 0, "kind": "hit", "p": [0, 0, 0], "contribution": [1, 1, 1]},
+        {**UP, "sample": 0, "kind": "end", "radiance": [1, 1, 1], "reason": "absorbed"},
+        {**UP, "sample": 1, "kind": "hit", "p": [0, 0, 0], "contribution": [2, 2, 2]},
+    ],
+}
+
+
+@pytest.mark.parametrize("lines", ODD.values(), ids=ODD)
+def test_every_panel_shows_paths_of_which_little_is_logged(lines):
+    header = {"castray": 1, "tracer": "mine", "width": 8, "height": 8}
+    data = "\n".join(json.dumps(line) for line in (header, *lines)).encode()
+    given = opened("a.jsonl", data, tracer.load("cornell_unit")).given
+    session, say = Session(given.scene, given.settings, tracer.load), Speaker("en")
+    session.give(given)
+    session.picture = given.picture
+    for event in range(len(session.path.events)):
+        session.cursor = session.cursor.at(event)
+        for panel in all_panels():
+            panel.show(session, say)
 
 
 def sent(server, name, data, **headers):

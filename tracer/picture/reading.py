@@ -14,6 +14,13 @@ from tracer.picture.stored import MARK, PREFIX, StoredPicture
 from tracer.picture.writing import FORMATS
 from tracer.settings import TracerError
 
+KINDS = (".png", ".ppm", ".pgm", ".exr", ".npy", ".hdr", ".pfm", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
+
+
+def is_picture(name):
+    """Whether a file's name is that of a picture."""
+    return Path(name).suffix.lower() in KINDS
+
 
 def read(path, dtype=np.float32, raw=False):
     """The StoredPicture in a file, linear; its variance and samples where it is an .exr of castray.

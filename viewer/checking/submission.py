@@ -8,6 +8,7 @@ from typing import Any
 import tracer
 from tracer.doctor.rule import FIRED, NOT_TESTABLE
 from tracer.events import KINDS
+from tracer.picture import is_picture
 from tracer.settings import TracerError
 
 RIGHT, WRONG, MAYBE, FAILED, SKIPPED = "right", "findings", "hypotheses", "failed", "skipped"
@@ -43,8 +44,6 @@ def row_of(path, name, scene, options, seconds):
             return _of_tracer(path, name, scene, options, seconds)
         if path.suffix.lower() == ".jsonl":
             return _of_log(path, name, scene)
-        from viewer.picture_doctor import is_picture
-
         if is_picture(path.name):
             return _of_picture(path, name, scene)
     except TracerError as error:

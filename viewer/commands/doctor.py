@@ -45,8 +45,8 @@ def doctor(
     from lessons.course import about
     from lessons.zoo import planted
     from tracer.doctor.fresh import by_chance, confirmed, fresh
+    from tracer.picture import is_picture
     from tracer.trace import gather
-    from viewer.picture_doctor import is_picture
     from viewer.recorded import is_recording
 
     if is_picture(what):

@@ -42,8 +42,9 @@ def view(
         What the picture is compared with: a bug of the zoo, right (the tracer without a bug), a picture's
         file (such as your own), or a recording's folder.
     """
+    from tracer.picture import is_picture
     from viewer import app as viewer_app
-    from viewer.pictured import is_picture, serve_picture
+    from viewer.pictured import serve_picture
     from viewer.recorded import is_recording, serve_recording
 
     if port is not None and not 0 <= port <= 65535:

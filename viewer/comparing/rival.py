@@ -1,5 +1,6 @@
 """What the picture is compared with: another tracer of the same scene, a recording, or a picture's file."""
 
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,18 +13,25 @@ from tracer.trace import folder
 from tracer.trace.reading import picture as recorded_picture
 from tracer.trace.stored_scene import restore
 from viewer.link import RIGHT
+from viewer.passing import passing
 from viewer.recorded import is_recording
 
 
 @dataclass(frozen=True)
 class Rival:
     """name: a bug's id, RIGHT, or what was typed; scene, settings: None where no path can be traced again;
-    picture: with .rgb, None where it is yet to be rendered."""
+    picture: with .rgb, None where it is yet to be rendered; data: the bytes of a file that came from the page
+    and lies nowhere."""
 
     name: str
     scene: Any = None
     settings: tracer.Settings | None = None
     picture: Any = None
+    data: bytes | None = None
+
+    def file(self):
+        """Where a picture's file is, for as long as the block lasts."""
+        return nullcontext(self.name) if self.data is None else passing(self.name, self.data)
 
     @property
     def traced(self):

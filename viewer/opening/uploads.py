@@ -4,7 +4,6 @@ They are written into a folder of their own that is gone afterwards; a scene amo
 """
 
 import re
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ import tracer
 from tracer.settings import TracerError
 from viewer.comparing.rival import Rival
 from viewer.opening.given import Given, of_log
+from viewer.passing import passing
 
 MEGABYTE = 1 << 20
 LARGEST = {
@@ -55,13 +55,8 @@ def check_size(name, size):
 def opened(name, data, scene):
     """The Upload in the bytes of a file of that (harmless) name; scene: the one that a log is of. Raises
     TracerError, which names no folder."""
-    with tempfile.TemporaryDirectory(prefix="castray-") as folder:
-        file = Path(folder) / name
-        file.write_bytes(data)
-        try:
-            return _READERS.get(file.suffix, _picture)(file, scene)
-        except TracerError as error:
-            raise TracerError(str(error).replace(str(file), name)) from None
+    with passing(name, data) as file:
+        return _READERS.get(file.suffix, _picture)(file, scene)
 
 
 def _scene(file, scene):
@@ -79,7 +74,7 @@ def _picture(file, scene):
     width, height = _size(file)
     if width * height > MOST_PIXELS:
         raise TracerError(f"open: {file.name} has {width} x {height} pixels, more than {MOST_PIXELS}")
-    return Upload(file.name, rival=Rival(file.name, picture=tracer.read(file)))
+    return Upload(file.name, rival=Rival(file.name, picture=tracer.read(file), data=file.read_bytes()))
 
 
 def _size(file):
