@@ -8,7 +8,7 @@ import asyncio
 import logging
 import pickle
 import warnings
-from concurrent.futures import BrokenExecutor, CancelledError
+from concurrent.futures import BrokenExecutor, CancelledError, ThreadPoolExecutor
 from contextlib import contextmanager
 
 from tracer.engine.many import ClusterWarning, Lost
@@ -120,7 +120,8 @@ def _check_answers(address, patience):
             return await scheduler.identity()
 
     try:
-        said = asyncio.run(asyncio.wait_for(ask(), patience))
+        with ThreadPoolExecutor(1) as elsewhere:  # a notebook's own thread has an event loop running
+            said = elsewhere.submit(lambda: asyncio.run(asyncio.wait_for(ask(), patience))).result()
         if said.get("type") != "Scheduler":
             raise TracerError(f"cluster: {address} is a {said.get('type')}, not a scheduler")
     except TracerError:

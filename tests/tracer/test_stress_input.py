@@ -164,7 +164,7 @@ def test_s49_a_broken_sample_is_dropped_and_counted_and_reported(
     y, x = np.argwhere((picture.rgb < good.rgb).all(axis=2))[0]
     ends = [p.end for p in tracer.inspect(scene, settings, x, y, steps=steps).paths]
     assert "invalid" in ends
-    monkeypatch.setattr(tracer, "render", lambda *_: picture)
+    monkeypatch.setattr(tracer, "render", lambda *_, **__: picture)
     for words in ((), ("--json",)):
         with pytest.raises(SystemExit):
             main(["render", "cornell_unit", "-o", str(tmp_path / "out.exr"), *words])

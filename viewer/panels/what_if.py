@@ -237,7 +237,7 @@ def _asked(session, key, value):
     """The supposition that one knob of the current event stands for. Raises TracerError."""
     event = session.event
     name = f"{event.depth}.{event.kind.name}"
-    if not isinstance(key, str) or key.rpartition(".")[0] != name and key != name or not _choice(event):
+    if not isinstance(key, str) or key.rpartition(".")[0] != name and key != name or not _choice(session):
         raise TracerError(f"what_if: {str(key)[:40]!r} is not what can be changed at this event")
     if event.kind.name == "roulette":
         return parse([f"{name}={str(value)[:20]}"])
