@@ -120,8 +120,8 @@ def measured(side=SIDE):
     here = machine()
     return (
         f"Right traces of the homework's box, {side} x {side}, {SPP} spp, at commit {commit()}; asked: "
-        f"{ASKED}. {here['processor']}, {here['cores']} cores, others at work beside: the kernel of "
-        "BENCHMARKS.md tells how much.\n\n"
+        f"{ASKED}. {here['processor']}, {here['cores']} cores; the kernel of "
+        "BENCHMARKS.md tells how busy they were.\n\n"
         "| log | MB | | s | s of processor | kernel ms | GB at most | findings |\n"
         "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n"
     )
