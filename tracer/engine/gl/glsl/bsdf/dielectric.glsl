@@ -1,8 +1,6 @@
 // Smooth glass or water: the twin of tracer/bsdf/dielectric.py. a: specular reflectance and eta,
 // b: specular transmittance.
 
-float relative_eta(Material m, float cos) { return cos > 0.0 ? m.a.w : 1.0 / m.a.w; }
-
 vec3 dielectric_eval(Material m, vec3 wo, vec3 wi) { return vec3(0.0); }
 
 float dielectric_pdf(Material m, vec3 wo, vec3 wi) { return 0.0; }

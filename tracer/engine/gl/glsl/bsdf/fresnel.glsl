@@ -43,3 +43,25 @@ float conductor_mean(float cos, float eta, float k, bool approximate)
     float rp = rs * (sum - part * sin2) / max(sum + part * sin2, TINY);
     return 0.5 * (clamp(rs, 0.0, 1.0) + clamp(rp, 0.0, 1.0));
 }
+
+// What a material's boundary reflects. A metal, smooth or rough; a: eta, b: k, c: specular reflectance.
+vec3 metal_reflectance_at(Material m, float cos)
+{
+    bool approximate = m.number.z != 0;
+    return m.c.rgb
+        * vec3(
+            conductor_mean(cos, m.a.r, m.b.r, approximate), conductor_mean(cos, m.a.g, m.b.g, approximate),
+            conductor_mean(cos, m.a.b, m.b.b, approximate));
+}
+
+// The coat over a diffuse base, smooth or rough; a.w: eta.
+float coat_reflectance_at(Material m, float cos)
+{
+    float cos_t;
+    return dielectric_mean(clamp(cos, 0.0, 1.0), m.a.w, m.number.z != 0, cos_t);
+}
+
+// Index of what lies beyond over that of the side of the direction, of glass smooth or rough; a.w: eta.
+float relative_eta(Material m, float cos) { return cos > 0.0 ? m.a.w : 1.0 / m.a.w; }
+
+float largest(vec3 colour) { return max(max(colour.r, colour.g), colour.b); }

@@ -1,19 +1,11 @@
 // A diffuse base under a smooth clear coat: the twin of tracer/bsdf/plastic.py. a: diffuse reflectance and eta,
 // b: specular reflectance and inside, c: whether it is nonlinear.
 
-float plastic_reflectance_at(Material m, float cos)
-{
-    float cos_t;
-    return dielectric_mean(clamp(cos, 0.0, 1.0), m.a.w, m.number.z != 0, cos_t);
-}
-
 vec3 plastic_base(Material m)
 {
     vec3 rho = m.a.rgb;
     return rho / (1.0 - (m.c.x > 0.0 ? rho : vec3(1.0)) * m.b.w) / (m.a.w * m.a.w);
 }
-
-float largest(vec3 colour) { return max(max(colour.r, colour.g), colour.b); }
 
 float plastic_mirror_chance(Material m, float F)
 {
@@ -26,19 +18,19 @@ vec3 plastic_eval(Material m, vec3 wo, vec3 wi)
 {
     if (!(wo.z > 0.0 && wi.z > 0.0))
         return vec3(0.0);
-    float through = (1.0 - plastic_reflectance_at(m, wo.z)) * (1.0 - plastic_reflectance_at(m, wi.z));
+    float through = (1.0 - coat_reflectance_at(m, wo.z)) * (1.0 - coat_reflectance_at(m, wi.z));
     return plastic_base(m) * (through * INV_PI);
 }
 
 float plastic_pdf(Material m, vec3 wo, vec3 wi)
 {
-    float chance = plastic_mirror_chance(m, plastic_reflectance_at(m, wo.z));
+    float chance = plastic_mirror_chance(m, coat_reflectance_at(m, wo.z));
     return wo.z > 0.0 ? (1.0 - chance) * cosine_hemisphere_pdf(wi) : 0.0;
 }
 
 Sample plastic_sample(Material m, vec3 wo, vec3 u)
 {
-    float F = plastic_reflectance_at(m, wo.z), above = wo.z > 0.0 ? 1.0 : 0.0;
+    float F = coat_reflectance_at(m, wo.z), above = wo.z > 0.0 ? 1.0 : 0.0;
     float chance = plastic_mirror_chance(m, F);
     if (u.x < chance)
         return Sample(vec3(-wo.xy, wo.z), F * m.b.rgb * above, chance * above, true, REFLECTION);

@@ -3,19 +3,10 @@
 
 Facets roughconductor_facets(Material m) { return Facets(vec2(m.a.w, m.b.w), m.number.w != 0); }
 
-vec3 roughconductor_reflectance_at(Material m, float cos)
-{
-    bool approximate = m.number.z != 0;
-    return m.c.rgb
-        * vec3(
-            conductor_mean(cos, m.a.r, m.b.r, approximate), conductor_mean(cos, m.a.g, m.b.g, approximate),
-            conductor_mean(cos, m.a.b, m.b.b, approximate));
-}
-
 vec3 roughconductor_eval(Material m, vec3 wo, vec3 wi)
 {
     Mirrored at = mirrored(roughconductor_facets(m), wo, wi);
-    return roughconductor_reflectance_at(m, at.cos) * at.f;
+    return metal_reflectance_at(m, at.cos) * at.f;
 }
 
 float roughconductor_pdf(Material m, vec3 wo, vec3 wi) { return mirrored(roughconductor_facets(m), wo, wi).pdf; }

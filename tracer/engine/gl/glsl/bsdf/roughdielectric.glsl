@@ -3,13 +3,11 @@
 
 Facets roughdielectric_facets(Material m) { return Facets(m.c.xy, m.number.w != 0); }
 
-float roughdielectric_eta(Material m, float cos) { return cos > 0.0 ? m.a.w : 1.0 / m.a.w; }
-
 // f without its colour, and the density.
 vec2 roughdielectric_both(Material material, vec3 wo, vec3 wi)
 {
     Facets facets = roughdielectric_facets(material);
-    float eta = roughdielectric_eta(material, wo.z), cos_t;
+    float eta = relative_eta(material, wo.z), cos_t;
     bool same = wo.z * wi.z > 0.0;
     vec3 h = wo + (same ? 1.0 : eta) * wi, m = unit(h) * sign_bit(h.z);
     if (!(dot(wo, m) * wo.z > 0.0 && dot(wi, m) * wi.z > 0.0))
@@ -30,7 +28,7 @@ float roughdielectric_pdf(Material m, vec3 wo, vec3 wi) { return roughdielectric
 
 Sample roughdielectric_sample(Material material, vec3 wo, vec3 u)
 {
-    float eta = roughdielectric_eta(material, wo.z), up = sign_bit(wo.z), cos_t;
+    float eta = relative_eta(material, wo.z), up = sign_bit(wo.z), cos_t;
     vec3 m = up * facets_visible(roughdielectric_facets(material), upwards(up * wo), u.yz);
     float cos = clamp(dot(wo, m), 0.0, 1.0);
     bool back = u.x < dielectric_mean(cos, eta, material.number.z != 0, cos_t);

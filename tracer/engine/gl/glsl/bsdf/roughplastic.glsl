@@ -3,12 +3,6 @@
 
 Facets roughplastic_facets(Material m) { return Facets(vec2(m.c.x), m.number.w != 0); }
 
-float roughplastic_reflectance_at(Material m, float cos)
-{
-    float cos_t;
-    return dielectric_mean(clamp(cos, 0.0, 1.0), m.a.w, m.number.z != 0, cos_t);
-}
-
 // T, between the nodes of its table.
 float roughplastic_through(Material m, float cos)
 {
@@ -27,15 +21,15 @@ vec3 roughplastic_base(Material m)
 float roughplastic_glossy_chance(Material m, vec3 wo)
 {
     vec3 base = roughplastic_base(m) * m.c.y;
-    float glossy = roughplastic_reflectance_at(m, wo.z) * max(max(m.b.r, m.b.g), m.b.b);
-    float whole = glossy + roughplastic_through(m, wo.z) * max(max(base.r, base.g), base.b);
+    float glossy = coat_reflectance_at(m, wo.z) * largest(m.b.rgb);
+    float whole = glossy + roughplastic_through(m, wo.z) * largest(base);
     return whole > 0.0 ? glossy / whole : 1.0;
 }
 
 vec3 roughplastic_eval(Material m, vec3 wo, vec3 wi)
 {
     Mirrored at = mirrored(roughplastic_facets(m), wo, wi);
-    vec3 glossy = roughplastic_reflectance_at(m, at.cos) * at.f * m.b.rgb;
+    vec3 glossy = coat_reflectance_at(m, at.cos) * at.f * m.b.rgb;
     if (!(wo.z > 0.0 && wi.z > 0.0))
         return glossy;
     float base = roughplastic_through(m, wo.z) * roughplastic_through(m, wi.z) * INV_PI;
