@@ -42,6 +42,11 @@ def opening(link):
     return f"castray view {shlex.quote('#' + link.write())}"
 
 
+def of_scene(file, scene):
+    """A file of another tracer and its scene, as the commands that judge or open it take them."""
+    return f"{shlex.quote(str(file))} --scene {shlex.quote(str(scene))}"
+
+
 def replayed(diagnosis, scene, settings, recording=None):
     """A diagnosis of a scene's paths whose commands replay them as they are: with the bug and the changes,
     which the doctor does not know; of a recording's folder, in that."""

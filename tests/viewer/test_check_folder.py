@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shlex
 from html.parser import HTMLParser
 
 import pytest
@@ -14,6 +15,7 @@ from tracer.learner import starter
 from viewer.checking import report
 from viewer.checking.submission import FAILED, RIGHT, SKIPPED, WRONG, Row, files_in, row_of
 from viewer.options import CheckOptions
+from viewer.replay import of_scene
 from viewer.words import Speaker
 
 FEW = CheckOptions(size=(6, 6), spp=2)
@@ -157,3 +159,8 @@ def test_bad_input_is_one_line_and_code_2(folder, tmp_path, words):
     ran = castray("check", *(word.format(**places) for word in words), cwd=tmp_path)
     assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1 and not ran.stdout
     assert os.listdir(tmp_path) == ["empty"]
+
+
+@pytest.mark.parametrize("file", ["mine.py", "my homework (2).py", "光线 追踪.jsonl", "it's.py"])
+def test_a_command_that_is_printed_can_be_typed_whatever_the_file_is_called(file):
+    assert shlex.split(of_scene(file, "cornell")) == [file, "--scene", "cornell"]

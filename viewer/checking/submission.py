@@ -1,6 +1,5 @@
 """One submission: what kind of file it is, and what there is to say of it in a row of a table."""
 
-import shlex
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ from tracer.doctor.rule import FIRED, NOT_TESTABLE
 from tracer.events import KINDS
 from tracer.picture import is_picture
 from tracer.settings import TracerError
+from viewer.replay import of_scene
 
 RIGHT, WRONG, MAYBE, FAILED, SKIPPED = "right", "findings", "hypotheses", "failed", "skipped"
 STATES = (RIGHT, WRONG, MAYBE, FAILED, SKIPPED)
@@ -61,7 +61,7 @@ def _of_tracer(path, name, scene, options, seconds):
     diagnosis, _ = examined(path, scene, options, seconds, quiet=True)
     s = settings_of(options)
     traced = f"--size {s.width} {s.height} --spp {s.spp} --seed {s.seed}"
-    return _of_diagnosis(name, diagnosis, f"castray check {_quoted(path)} --scene {_quoted(scene)} {traced}")
+    return _of_diagnosis(name, diagnosis, f"castray check {of_scene(path, scene)} {traced}")
 
 
 def _of_log(path, name, scene):
@@ -70,7 +70,7 @@ def _of_log(path, name, scene):
     diagnosis = tracer.examine(read_log(str(path), tracer.load(scene)).trace)
     if all(verdict.state == NOT_TESTABLE for verdict in diagnosis.rules):
         return Row(name, FAILED, error="no law could be held against it: too few fields are logged")
-    return _of_diagnosis(name, diagnosis, f"castray doctor {_quoted(path)} --scene {_quoted(scene)}")
+    return _of_diagnosis(name, diagnosis, f"castray doctor {of_scene(path, scene)}")
 
 
 def _of_diagnosis(name, diagnosis, command):
@@ -95,7 +95,7 @@ def _of_picture(path, name, scene):
     from viewer.picture_doctor import opinion_of
 
     opinion, _, _ = opinion_of(path, scene)
-    command = f"castray doctor {_quoted(path)} --scene {_quoted(scene)}"
+    command = f"castray doctor {of_scene(path, scene)}"
     if opinion.is_right:
         return Row(name, RIGHT, command=command)
     first = opinion.hypotheses[0] if opinion.hypotheses else None
@@ -104,10 +104,6 @@ def _of_picture(path, name, scene):
 
 def _sorted(kinds):
     return tuple(sorted(kinds, key=lambda kind: _ORDER.index(kind) if kind in _ORDER else -1))
-
-
-def _quoted(text):
-    return shlex.quote(str(text))
 
 
 def files_in(folder):

@@ -10,6 +10,7 @@ from lessons.course import about
 from tracer.trace import Trace, pixels
 from viewer.examining import Chart, charted
 from viewer.given import logged_trace
+from viewer.replay import of_scene
 
 
 @dataclass(frozen=True)
@@ -68,4 +69,4 @@ def of_log(file, scene, name=None):
     trace = pixels.without_gaps(logged_trace(str(file), scene, name))
     diagnosis = tracer.examine(trace).explained_by(about)
     name, of = name or str(file), scene if isinstance(scene, str) else scene.name
-    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", f"{name} --scene {of}")
+    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", of_scene(name, of))

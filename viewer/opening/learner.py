@@ -16,6 +16,7 @@ from tracer.trace.trace import Trace
 from viewer.checking.learner import held, together
 from viewer.examining import charted
 from viewer.opening.given import Given
+from viewer.replay import of_scene
 from viewer.worker import Stopped, outcome
 
 SECONDS = 300.0  # that it may take
@@ -27,7 +28,7 @@ def given(file, scene, settings, stopped=lambda: None):
     whole, used = run(file, scene, settings, SECONDS, stopped=stopped)
     first, later = held(whole, used)
     chart = charted(whole, together(first, later).explained_by(about), {v.rule.id: used for v in later.rules})
-    return Given(Path(file).name, _with_f(whole, used), chart, "check", f"{file} --scene {scene}")
+    return Given(Path(file).name, _with_f(whole, used), chart, "check", of_scene(file, scene))
 
 
 def _with_f(whole: Trace, used: Trace):
