@@ -118,6 +118,16 @@ def test_breakpoints_are_buttons(page, queried):
         counted(page, **{k: answer[k] for k in ("events", "paths", "pixels")})
 
 
+def test_an_answer_that_comes_meanwhile_leaves_what_is_being_typed(page, queried):
+    field = page.get_by_test_id("query")
+    for name in ("negative", "largest"):
+        answer = queried(condition(name, "events"))
+        page.get_by_test_id(f"stop-{name}").dispatch_event("click")
+        field.fill("depth >= 3")
+        counted(page, **{k: answer[k] for k in ("events", "paths", "pixels")})
+        assert field.input_value() == "depth >= 3"
+
+
 def test_a_select_shows_its_rows(page, queried):
     text = "SELECT kind, count(*) AS events FROM events GROUP BY kind ORDER BY kind"
     answer = queried(text)

@@ -93,13 +93,15 @@
     emits: ["ask"],
     setup(props, { emit }) {
       const typed = ref(props.text), open = ref(false);
-      watch(() => props.text, (text) => { typed.value = text; });
-      const send = () => emit("ask", typed.value);
+      let typing = false;  // an answer to what was asked before must not replace what is being typed
+      watch(() => props.text, (text) => { if (!typing) typed.value = text; });
+      function send() { typing = false; emit("ask", typed.value); }
       function take(example) { open.value = false; typed.value = example; send(); }
-      return { typed, open, send, take };
+      const type = (is) => { typing = is; };
+      return { typed, open, send, take, type };
     },
     template: `<form role="search" class="ask" @submit.prevent="send"><input v-model="typed" type="search" spellcheck="false" autocomplete="off" maxlength="2000"
-        :aria-label="words.find_query" :placeholder="examples[0]" :aria-invalid="invalid" data-testid="query">
+        :aria-label="words.find_query" :placeholder="examples[0]" :aria-invalid="invalid" data-testid="query" @input="type(true)" @blur="type(false)">
       <button data-testid="find-go">{{ words.find_go }}</button>
       <button type="button" :aria-expanded="open" data-testid="find-examples" @click="open = !open">{{ words.find_examples }}</button></form>
       <ul v-if="open" class="examples"><li v-for="(e, k) in examples" :key="e"><button type="button" :data-testid="'example-' + k" @click="take(e)"><code>{{ e }}</code></button></li></ul>`,
