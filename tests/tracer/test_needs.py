@@ -138,6 +138,12 @@ def test_what_is_left_out_of_shadow_tests_never_blocks(scene, precision):
     assert differ <= 1e-3 * asked
 
 
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_need_is_told_once(scene):
+    told = [need.name for need in needs(loaded(scene), SMALL.at_size_of(loaded(scene)))]
+    assert len(set(told)) == len(told)
+
+
 @pytest.mark.slow
 def test_explain_says_what_is_on_and_off_and_why(tmp_path):
     words = ("render", "cornell_unit", "--size", 8, 8, "--spp", 1, "-o", tmp_path / "box.png", "--explain")

@@ -78,10 +78,6 @@ def _materials(scene):
     yield Need(
         "materials apart", count > 1, f"{count} kinds, a pass each" if count > 1 else "all of one kind"
     )
-    painted = [name for name, textures in scene.definition.textures.items() if textures]
-    yield Need("textures", bool(painted), _some(painted) if painted else "all colours are even")
-    grain = scene.bsdf.any_anisotropic
-    yield Need("frames along u", grain, "a material has a grain" if grain else "no material has a grain")
     filled = scene.media is not None
     yield Need("absorption", filled, "something is filled" if filled else "nothing is filled")
 
