@@ -18,6 +18,7 @@ from tracer import derived
 END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
 TECHNIQUES = ("area", "solid_angle", "cone", "delta", "image")
 LOBES = ("none", "diffuse", "reflection", "transmission")
+NUMBERED = ("shape", "bsdf", "light", "choice", "index")  # domains of whole numbers, of which -1 is none
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,15 @@ class Field:
     def carried(self):
         """Whether the loop yields it (otherwise it is derived)."""
         return self.derive is None
+
+    @property
+    def blank(self):
+        """What stands where it is not known or does not apply."""
+        if self.otherwise is not None:
+            return self.otherwise
+        if self.domain == "flag":
+            return False
+        return -1 if self.domain in NUMBERED else np.nan
 
 
 class Sparse(NamedTuple):

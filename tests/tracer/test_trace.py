@@ -1,5 +1,7 @@
 """A recording of many paths in columns."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -91,3 +93,30 @@ def test_what_was_not_recorded_is_not_there(scene):
     assert found.column("bounce", "wi") is None
     assert found.column("bounce", "D") is None  # made of wi
     assert found.column("bounce", "pdf") is not None
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "blank"),
+    [
+        ("light", "F", np.nan),
+        ("bounce", "G1", np.nan),
+        ("light", "blocker", -1),
+        ("light", "cos_light", None),
+    ],
+)
+def test_an_event_whose_surface_was_not_recorded_has_nothing_that_is_made_of_a_surface(kind, name, blank):
+    source = tracer.load("cornell_unit").definition.source[0]
+    metal = {"type": "roughconductor", "alpha": 0.3}
+    scene = tracer.load_dict(source | dict.fromkeys(("white", "green", "red"), metal))
+    found = trace.gather(scene, tracer.Settings(**SMALL))
+    hits = found.tables["hit"]
+    lost = np.unique(found.tables[kind].path)[::3]  # paths whose hits are left out
+    kept = hits.take(~np.isin(hits.path, lost))
+    partly = replace(found, tables=found.tables | {"hit": kept})
+    whole, column = found.column(kind, name), partly.column(kind, name)
+    astray = np.isin(found.tables[kind].path, lost)
+    assert 0 < np.count_nonzero(astray) < astray.size
+    np.testing.assert_array_equal(column[..., ~astray], whole[..., ~astray])
+    expected = whole[..., astray] if blank is None else np.full_like(whole[..., astray], blank)
+    np.testing.assert_array_equal(column[..., astray], expected)
+    assert column.dtype == whole.dtype

@@ -1,7 +1,7 @@
 """A pixel of a Trace as `tracer.inspect` gives one, and its picture: whoever shows castray's paths can show
 those of any tracer.
 
-What was not recorded and cannot be worked out is blank: NaN, no name (-1), False.
+What was not recorded and cannot be worked out is blank, as its Field says: NaN, no name (-1), False.
 """
 
 import numpy as np
@@ -12,8 +12,6 @@ from tracer.events import END_REASONS, KINDS
 from tracer.recorder import RecordedEvent, RecordedPath
 from tracer.settings import TracerError
 from tracer.trace.trace import Trace, replaced_steps
-
-_NAMES = ("shape", "bsdf", "light", "choice", "index")
 
 
 def without_gaps(trace: Trace):
@@ -88,16 +86,8 @@ def _columns(trace, kind):
     columns, size = {}, trace.tables[kind.name].path.size
     for field in kind.fields:
         found = trace.column(kind.name, field.name) if size else None
-        columns[field.name] = _blank(field, size) if found is None else found
+        columns[field.name] = np.full((*field.shape, size), field.blank) if found is None else found
     return columns
-
-
-def _blank(field, size):
-    if field.otherwise is not None:
-        return np.full((*field.shape, size), field.otherwise)
-    if field.domain == "flag":
-        return np.zeros(size, bool)
-    return np.full(size, -1) if field.domain in _NAMES else np.full((*field.shape, size), np.nan)
 
 
 def _path(trace, row, radiance, events):

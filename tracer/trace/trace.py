@@ -90,20 +90,31 @@ class Trace:
 
     def column(self, kind, name):
         """A field (..., E) of all events of a kind, carried or derived; None where it was not recorded and
-        cannot be derived from what was."""
+        cannot be derived from what was. Where it needs a vertex and none was recorded before the event, it is
+        the field's blank."""
         table = self.tables[kind]
         if name in table.columns:
             return table[name]
         field = next(k for k in KINDS if k.name == kind).field(name)
         if field.carried:
             return None
-        hits = self.tables[HIT.name]
-        if kind != HIT.name:
-            hits = hits.take(self.hit_of(kind)) if hits.path.size else replace(hits, columns={})
+        hits, row = self.tables[HIT.name], self.hit_of(kind)
+        if kind == HIT.name:
+            return self._derived(field, table, hits.columns)
+        if not hits.path.size:
+            return self._derived(field, table, {})
+        column = self._derived(field, table, hits.take(row).columns)
+        astray = np.flatnonzero(row < 0)  # they were given the last vertex of all
+        if column is None or not astray.size or self._derived(field, table.take(astray), {}) is not None:
+            return column
+        return np.where(row < 0, field.blank, column)
+
+    def _derived(self, field, table, vertex):
+        """What a derived field is; None where something that it is made from was not recorded."""
         try:
             with np.errstate(all="ignore"):
-                return field.derive(table.columns, hits.columns, self.scene)
-        except KeyError:  # made from what was not recorded
+                return field.derive(table.columns, vertex, self.scene)
+        except KeyError:
             return None
 
     def take(self, rows):
