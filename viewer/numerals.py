@@ -48,3 +48,10 @@ def css(linear):
 def luminance(rgb):
     """How bright a linear colour is to the eye."""
     return float(np.dot(np.asarray(rgb, float), LUMINANCE))
+
+
+def near(recorded, right, share):
+    """Whether every number is within a share of the largest right one, or is the right one (inf)."""
+    with np.errstate(invalid="ignore"):  # inf - inf
+        close = np.abs(recorded - right) <= share * np.abs(right).max()
+    return bool((close | (recorded == right)).all())

@@ -7,6 +7,7 @@ import numpy as np
 
 from tracer.integrator import steps
 from viewer.caption import named
+from viewer.numerals import near
 from viewer.understanding.places import places
 from viewer.understanding.reasons import Reason, spelled
 from viewer.understanding.surface import Surface, column
@@ -55,9 +56,9 @@ def _lights(there, scene, settings):
         length = np.linalg.norm(v["wi"][:, k])
         if not np.abs(v["wi"][:, k] / length - right.wi[:, k]).max() < APART:
             yield "direction", place, _values(v["wi"][:, k], right.wi[:, k])
-        elif not _near(v["pdf"][k], right.pdf[k]):
+        elif not near(v["pdf"][k], right.pdf[k], FAR):
             yield "density", place, _values(v["pdf"][k], right.pdf[k])
-        if not _near(v["w"][k], w[k]):
+        if not near(v["w"][k], w[k], FAR):
             yield "weight", place, _values(v["w"][k], w[k])
         if v["visible"][k] and blocker[k] >= 0:
             values = {"blocker": named("shape", blocker[k], scene), "at": float(at[k])}
@@ -81,12 +82,8 @@ def _bounces(there, scene, settings):
     for k, place in enumerate(there):
         if not np.abs(wi[:, k] - right[:, k]).max() < APART:
             yield "direction", place, _values(wi[:, k], right[:, k])
-        elif sample.delta[k] and not np.abs(f[:, k] - sample.f[:, k]).max() <= FAR * sample.f[:, k].max():
+        elif sample.delta[k] and not near(f[:, k], sample.f[:, k], FAR):
             yield "share", place, _values(f[:, k], sample.f[:, k])
-
-
-def _near(recorded, right):
-    return abs(recorded - right) <= FAR * abs(right) or recorded == right
 
 
 def _rays(record, scene):

@@ -4,7 +4,7 @@ import numpy as np
 
 from viewer.caption import named
 from viewer.equation import product_of
-from viewer.numerals import luminance
+from viewer.numerals import luminance, near
 from viewer.understanding.places import places
 from viewer.understanding.reasons import Reason, spelled
 from viewer.understanding.surface import Surface
@@ -38,7 +38,7 @@ def _result(record, place):
     if product is None:
         return None
     right, recorded = product.value, np.asarray(product.recorded, float)
-    fits = not np.isfinite(recorded).all() or _near(recorded, right, OFF)
+    fits = not np.isfinite(recorded).all() or near(recorded, right, OFF)
     return None if fits else (recorded, right)
 
 
@@ -59,15 +59,10 @@ def _material(there, scene):
         surface = Surface(scene, [place.hit for place in asked])
         f, pdf = surface.f(wi), surface.pdf(wi)
     for k, (place, v) in enumerate(zip(asked, values, strict=True)):
-        if not _near(v["f"], f[:, k]):
+        if not near(v["f"], f[:, k], FAR):
             yield "f", place, v["f"], f[:, k]
-        if place.event.kind.name == "bounce" and not _near(v["pdf"], pdf[k]):
+        if place.event.kind.name == "bounce" and not near(v["pdf"], pdf[k], FAR):
             yield "pdf", place, v["pdf"], pdf[k]
-
-
-def _near(recorded, right, share=FAR):
-    """Whether all channels are within a share of the largest."""
-    return bool((np.abs(recorded - right) <= share * np.abs(right).max()).all())
 
 
 def _reason(what, kind, group, of, scene):
