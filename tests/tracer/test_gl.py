@@ -16,11 +16,12 @@ from suite import ROOT, castray, missing
 import tracer
 from lessons import zoo
 from tracer import Settings, TracerError
-from tracer.engine.gl import device, material_tables, source
+from tracer.engine.gl import device, material_tables, source, tracing
 from tracer.engine.gl.choice import faster
 from tracer.integrator.steps import RIGHT
 from tracer.light.envmap import Envmap
 from tracer.scene import Scene
+from tracer.scene_file.change import changed
 from tracer.shape import Mesh
 from tracer.testing import z_test
 
@@ -316,6 +317,29 @@ def test_auto_takes_it_only_where_a_graphics_card_draws(gl, monkeypatch):
     monkeypatch.setattr("tracer.engine.gl.choice.is_hardware", lambda: True)
     engine, why = faster(scene, replace(settings, precision=64), RIGHT)
     assert (engine, why) == ("numpy", "gl cannot do precision 64")
+
+
+@pytest.mark.slow
+def test_a_scene_that_differs_by_numbers_of_its_tables_is_not_compiled_again(gl):
+    first, again, compiled = loaded("sky"), {}, tracing._compiled
+    tracer.render(first, small(spp=1), engine="gl")
+    before = compiled.cache_info().misses
+    for changes in ({"day.radiance": [0.1, 0.2, 0.3]}, {"sun.irradiance": [1, 2, 3]}, {}):
+        scene = changed(first, changes)
+        for seed in (1, 2):
+            again[str(changes), seed] = tracer.render(scene, small(spp=1, seed=seed), engine="gl").rgb
+    assert compiled.cache_info().misses == before
+    assert len({rgb.tobytes() for rgb in again.values()}) == len(again)
+    compiled.cache_clear()
+    assert np.array_equal(tracer.render(scene, small(spp=1, seed=2), engine="gl").rgb, again["{}", 2])
+
+
+def test_what_pictures_took_of_the_card_does_not_pile_up(gl):
+    left = []
+    for seed in range(4):
+        tracer.render(loaded("cornell_unit"), small(spp=1, seed=seed), engine="gl")
+        left.append(len(gl.objects))  # of the last one, which the next one frees
+    assert left[1] == left[3] > 0
 
 
 def test_each_material_stands_beside_its_twin_in_the_same_order():

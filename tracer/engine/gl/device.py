@@ -31,6 +31,7 @@ def device():
             said.append(" ".join(str(error).split()) or type(error).__name__)
             continue
         if context.version_code >= LEAST:
+            context.gc_mode = "context_gc"  # what nobody has any more is freed where gc() is called
             return context
         version = "{}.{}".format(*divmod(context.version_code // 10, 10))
         context.release()

@@ -242,16 +242,16 @@ class Source:
         ball = Ball.around(*self.scene.bounds())
         if len(self._elsewhere):
             yield "struct Elsewhere { ivec4 number; vec4 where; vec4 colour; };"
-            yield f"#define BALL {vector((*ball.center, ball.radius))}"
+            yield f"#define BALL elsewhere[{len(self._elsewhere)}].where"
             for k, kind in enumerate(tables.ELSEWHERE):
                 yield f"#define {kind.upper()} {k}"
-            yield self._table("elsewhere", "Elsewhere", self._elsewhere)
+            yield self._table("elsewhere", "Elsewhere", tables.with_ball(self._elsewhere, ball))
             for name in ("elsewhere", "point", "directional", "constant"):
                 yield text(f"light/{name}")
-            for row in self._elsewhere:
+            for k, row in enumerate(self._elsewhere):
                 if row["number"][0] == tables.ELSEWHERE.index("Constant"):
-                    yield f"#define SKY_LE {vector(row['colour'][:3])}"
-                    yield f"#define SKY_PDF {number(row['colour'][3] / (4.0 * np.pi))}"
+                    yield f"#define SKY_LE elsewhere[{k}].colour.rgb"
+                    yield f"#define SKY_PDF (elsewhere[{k}].colour.w / (4.0 * PI))"
         if len(self._lamps) + len(self._elsewhere):
             yield self._table("cdf", "float", self.scene.lights.cdf.astype(np.float32))
             yield text("light/table")

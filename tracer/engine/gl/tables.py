@@ -204,6 +204,13 @@ def elsewhere(scene):
     return table
 
 
+def with_ball(table, ball):
+    """`elsewhere`, and one more row for the Ball around the scene."""
+    last = rows(1, ("number",), ("where", "colour"))
+    last["where"] = *ball.center, ball.radius
+    return np.concatenate((table, last))
+
+
 def asked_for_shadows(scene):
     """Primitives that may hide a lamp: not those of shapes of which the arrangement knows better, nor walls
     of a box that holds everything."""

@@ -1,5 +1,7 @@
 """Waves traced by a shader: what `engine.waves.trace` is for NumPy."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from tracer import film
@@ -11,9 +13,12 @@ from tracer.sampler import pack_pixel
 from tracer.settings import TracerError
 
 WATCHED = 5  # vertices of a path that are kept where they are looked at
+SHADERS = 16  # that are kept ready
 
 
+@lru_cache(SHADERS)
 def _compiled(context, text):
+    """The shader of that text: where a scene differs by numbers of its tables only, it is compiled once."""
     try:
         return context.compute_shader(text)
     except Exception as error:  # moderngl's own, which has no name outside it
@@ -35,10 +40,10 @@ class Tracer:
         self.settings, self._watched = settings, WATCHED if watched else 0
         source = Source(scene, settings, self._watched)
         context = device()
+        context.gc()
         self._tables = {binding: context.buffer(data) for binding, data in source.buffers.items()}
         self._shader = _compiled(context, source.text)
         self._buffers = {}
-        self._say(seed=settings.seed)
 
     def __call__(self, task):
         """Trace one task; its samples are folded as those of every engine are."""
@@ -63,7 +68,7 @@ class Tracer:
             self._room(3, 4 * paths)
         for binding, table in (self._tables | self._buffers).items():
             table.bind_to_storage_buffer(binding)
-        self._say(paths=paths, samples=samples)
+        self._say(seed=self.settings.seed, paths=paths, samples=samples)
         self._shader.run(-(-paths // GROUP))
         return np.frombuffer(out.read(16 * paths), np.float32).reshape(-1, samples, 4)
 
@@ -83,8 +88,6 @@ class Tracer:
     def _room(self, binding, size):
         """A buffer of at least that size."""
         if binding not in self._buffers or self._buffers[binding].size < size:
-            if binding in self._buffers:
-                self._buffers[binding].release()
             self._buffers[binding] = device().buffer(reserve=size)
         return self._buffers[binding]
 
