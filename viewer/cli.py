@@ -37,7 +37,8 @@ def command_line(say):
     )
     for name in COMMANDS:  # their docstrings are wrapped anew, which plain text is not
         module = f"viewer.commands.{name}:{name}"
-        app.command(module, name=name, help=say(f"command.{name}"), help_format="markdown")
+        spoken = {"help": say(f"command.{name}"), "help_format": "markdown"}
+        app.command(module, name=name, help_formatter=SpokenFormatter(name), **spoken)
     return app
 
 

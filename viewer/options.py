@@ -78,7 +78,7 @@ BenchOptions = path_options(  # without what `castray bench` measures
     _SHRUNK,
 )
 Whole = Parameter(converter=_whole)
-Json = Annotated[bool, Parameter(help="print one JSON document and nothing else", negative=())]
+Json = Annotated[bool, Parameter(help="Print one JSON document and nothing else.", negative=())]
 
 
 def print_json(document):

@@ -2,15 +2,20 @@
 
 import importlib
 import inspect
+import itertools
 import re
 import subprocess
 import sys
 
 import pytest
+from rich.cells import cell_len
 from suite import castray
 
+from viewer import spoken_help
 from viewer.cli import COMMANDS, main
-from viewer.words import LANGUAGES, Speaker
+from viewer.folded import ends_of_lines
+from viewer.spoken_help import name_of
+from viewer.words import LANGUAGES, Speaker, areas
 from viewer.words.language import ENVIRONMENT
 
 
@@ -79,6 +84,54 @@ def test_the_path_options_of_a_command_speak_it_too(capsys):
         assert Speaker(language)("help.path_options") in out
         assert Speaker(other)("help.path_options") not in out
         assert Speaker(language).setting("spp") in out
+
+
+CHINESE = re.compile(r"[\u4e00-\u9fff]")
+
+
+def helped(capsys, *words):
+    """What `castray WORDS --help` prints, an option a line."""
+    with pytest.raises(SystemExit):
+        main([*words, "--help"])
+    return capsys.readouterr().out
+
+
+@pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})
+def test_no_option_of_any_command_is_explained_in_english_only(language, capsys, monkeypatch):
+    """And the tables explain none that there is not."""
+    monkeypatch.setenv("COLUMNS", "600")
+    there = {}
+    for command in ("", *COMMANDS):
+        names = there[command] = set()
+        monkeypatch.setattr(
+            spoken_help, "name_of", lambda e, names=names: names.add(name_of(e)) or name_of(e)
+        )
+        out = helped(capsys, "--lang", language, *command.split())
+        lines = [line for line in out.splitlines() if line.startswith("│")]
+        assert len(lines) == len(names) > 0
+        said = [re.sub(r"^│ +(\* +)?[-A-Z_[\]. ]+(?=  )", "", line) for line in lines]
+        assert [line for line in said if not CHINESE.search(line)] == []
+        assert re.findall(r"(?:\b[a-z]+ ){4,}", out) == []  # four English words in a row
+    own = {f"option.{command}.{name}" for command, names in there.items() for name in names}
+    any_ = {f"option.{name}" for names in there.values() for name in names}
+    assert areas()["options"][language].keys() <= own | any_
+
+
+def test_an_option_without_a_translation_would_be_seen(capsys, monkeypatch):
+    """The test above can fail: English help has many words in a row."""
+    monkeypatch.setenv("COLUMNS", "600")
+    assert re.findall(r"(?:\b[a-z]+ ){4,}", helped(capsys, "render"))
+
+
+def test_chinese_lines_end_anywhere_but_before_what_closes_a_sentence():
+    text = "查看器地址栏里的链接；castray render 写出的文件夹（其中的位置：DIR#x=..），或别的。" * 3
+    for width in range(24, 60):
+        ends = [0, *ends_of_lines(text, width), len(text)]
+        lines = [text[a:b] for a, b in itertools.pairwise(ends)]
+        assert "".join(lines) == text
+        assert all(cell_len(line.rstrip()) <= width for line in lines)
+        assert all(line[0] not in "，。；：）" and line.rstrip()[-1] not in "（" for line in lines)
+        assert not any("castray"[:k] == line.rstrip()[-k:] for line in lines for k in range(1, 7))
 
 
 @pytest.mark.parametrize("words", [("--lang", "fr"), ("--lang",), ("--lang=",)])

@@ -4,7 +4,7 @@ WORDS = {
     "zh": {
         "setting.width": "图像宽度，以像素计（默认：依场景）",
         "setting.height": "图像高度，以像素计（默认：依场景）",
-        "setting.size": "宽度和高度，以像素计（默认：依场景，有些命令会缩小）",
+        "setting.size": "宽度和高度，以像素计（默认：依场景）",
         "setting.set": "换一种说法读场景里的一个词：OBJECT.WORD=VALUE，如 white.reflectance=0.5；可以重复",
         "setting.spp": "每像素的样本数",
         "setting.seed": "所有随机数的种子",
