@@ -27,6 +27,7 @@ FRAME = """
       <li><i class="blocked">╍✕</i>{{ w.legend_blocked }}</li><li><i class="idle">┄</i>{{ w.legend_idle }}</li>
       <li v-if="companions.what_if" data-testid="legend-what-if"><i class="what_if">╍●</i>{{ w.legend_what_if }}</li>
       <li v-if="companions.twin" data-testid="legend-twin"><i class="twin">╍●</i>{{ w.legend_twin }}</li>
+      <li v-for="mark in over" :key="mark.kind + mark.text" :data-testid="'legend-' + mark.kind"><i :class="mark.kind"></i>{{ mark.text }}</li>
     </ul>
     <p v-if="!touched" class="hint" data-testid="hint">{{ w.hint }}</p>
   </section>

@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
+from viewer import hemisphere
 from viewer.solids import EMPTY
 from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint, walls
 from viewer.traces import Strokes
@@ -94,6 +95,7 @@ class Stage:
         self._surfaces, self.layers = [], {}
         for name, colour in COLOURS.items():
             self.layers[name] = Layer(self.renderer, colour)
+        self._over = {}  # layers of the hemisphere over the vertex, there from its first showing on
         self.labels = []
         self._light()
         self.furnish(scene)
@@ -136,9 +138,9 @@ class Stage:
         eye.SetViewUp(*self.camera["viewUp"])
         eye.SetViewAngle(VIEW_ANGLE)
 
-    def draw(self, record, cursor, level, beside=None):
+    def draw(self, record, cursor, level, beside=None, over=None):
         """Show the pixel's paths and the current event; level says what changed. beside: paths drawn beside
-        the selected one, {one of COMPANIONS: Companion}."""
+        the selected one, {one of COMPANIONS: Companion}; over: the Hemisphere over its vertex."""
         beside = beside or {}
         path = record.paths[cursor.path]
         drawn = self.strokes.event(path, cursor.event)
@@ -153,3 +155,22 @@ class Stage:
         for name, there in beside.items():
             at = there.at or self.strokes.parting(path, there.path)
             self.labels.append({"text": there.word, "layer": name, "at": at})
+        self._show_over(over)
+
+    def _show_over(self, over):
+        """The Hemisphere's layers; None takes them away."""
+        if over is not None and not self._over:
+            self._make_room(hemisphere)
+        for name, layer in self._over.items():
+            layer.show(*(EMPTY if over is None else over.drawn[name]))
+        if over is not None:
+            self.labels += over.labels
+
+    def _make_room(self, drawn):
+        """Layers for what a module has the COLOURS of, before the surfaces, which would hide them."""
+        for _, layer in self._surfaces:
+            self.renderer.RemoveActor(layer.actor)
+        for name, colour in drawn.COLOURS.items():
+            lit = name in drawn.LIT
+            self._over[name] = Layer(self.renderer, colour, drawn.OPACITY.get(name, 1.0), lit, culled=lit)
+        self._surfaces = [(s, layer_of(s, self.renderer)) for s, _ in self._surfaces]

@@ -6,7 +6,9 @@ from viewer import solids
 from viewer.caption import light_outcome
 
 MOST_OTHERS = 256  # more faint paths than this are only fog
-NAMES = {"n": "n", "wo": "ωₒ", "wi": "ωᵢ", "light": "ωᵢ → q"}  # of the arrows
+LONG = 0.13  # of an arrow, as a share of the scene's diagonal
+# of the arrows
+NAMES = {"n": "n", "wo": "ωₒ", "wi": "ωᵢ", "light": "ωᵢ → q", "ng": "n_g", "h": "h"}
 
 
 class Strokes:
@@ -91,7 +93,7 @@ class Strokes:
     def vectors(self, path, index):
         """(layer, start, unit vector, length) of what the current event knows."""
         event, hit = path.events[index], last_hit(path, index)
-        v, long = event.values, 0.13 * self.size
+        v, long = event.values, LONG * self.size
         if event.kind.name == "camera":
             return [("wi", v["o"], np.asarray(v["d"], float), long)]
         if hit is None or event.kind.name == "end":

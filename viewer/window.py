@@ -7,11 +7,14 @@ import numpy as np
 
 from tracer.settings import Settings, TracerError
 from viewer.comparing.comparer import beside
+from viewer.hemisphere import Hemisphere
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
 from viewer.render import Painter
 from viewer.stage import Companion, Stage
 from viewer.traces import here
+from viewer.understanding.lens import SHOWN
+from viewer.understanding.lens import here as lens_here
 from viewer.words import LANGUAGES, Speaker
 
 PLAY_SECONDS = 0.8
@@ -26,6 +29,7 @@ class Window:
         self.stage = Stage(session.scene)
         self.painter, self.playing, self.rendered, self.loop = None, None, None, None
         self.followers = []  # told when a picture is begun() and when it has been painted() further
+        self.aimed = None  # the vertex whose hemisphere is looked at
         self.tab = None  # that is open on the page, as far as it has said
         self._build()
         self.refresh("picture")
@@ -93,9 +97,10 @@ class Window:
         """Show again what depends on a level or on what follows from it."""
         changed = LEVELS[LEVELS.index(level) :]
         session, cursor = self.session, self.session.cursor
-        companions = self._companions()
-        self.stage.draw(session.record, cursor, level, companions)
+        companions, over = self._companions(), self._over()
+        self.stage.draw(session.record, cursor, level, companions, over)
         self._push_stage()
+        self._aim(over)
         for panel in all_panels():
             if panel.show and panel.level in changed:
                 shut = panel.lazy and panel.name != self.tab
@@ -106,6 +111,7 @@ class Window:
                 "event_index": cursor.event,
                 "labels": self.stage.labels,
                 "companions": {name: True for name in companions},
+                "over": over and over.legend(self.say),
                 "link": session.link.write(),
                 "header": self._header(),
             }
@@ -120,6 +126,17 @@ class Window:
             at = np.asarray(here(twin.path, since), float).tolist()
             found["twin"] = Companion(twin.path, self.say("compare.label"), since, at)
         return found
+
+    def _over(self):
+        """The Hemisphere over the vertex, where it is asked for and there is one."""
+        lens = lens_here(self.session) if self.session.shelf.get(SHOWN) else None
+        return Hemisphere(lens, self.stage.size, self.say) if lens else None
+
+    def _aim(self, over):
+        """Look at the Hemisphere, when it comes or stands elsewhere; from the start again when it goes."""
+        place = over and tuple(np.asarray(over.lens.vertex.hit["p"], float))
+        if place != self.aimed:
+            self.aimed, self.state.camera = place, over.viewpoint() if over else self.stage.camera
 
     def look(self, tab):
         """The reader looks at another tab."""
@@ -205,7 +222,7 @@ class Window:
     def furnish(self):
         """Show the session's scene in 3D in place of another."""
         self.stage.furnish(self.session.scene)
-        self.state.camera = self.stage.camera
+        self.aimed, self.state.camera = None, self.stage.camera
 
     def play(self):
         """Walk on by itself; from the end it starts again."""

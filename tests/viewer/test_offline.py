@@ -1,5 +1,6 @@
 """A page that stands alone shows a pixel's paths in 3D from a file, and asks nobody for anything."""
 
+import base64
 import io
 import json
 import re
@@ -11,7 +12,9 @@ from PIL import Image
 import tracer
 from lessons.zoo import planted
 from viewer.cursor import Cursor
+from viewer.hemisphere import Hemisphere
 from viewer.offline import View, page
+from viewer.understanding import lens
 from viewer.words import Speaker
 
 SCENE = tracer.load("cornell_unit")
@@ -64,6 +67,22 @@ def pixels(tab):
     """What the 3D view shows, (N, 3)."""
     shot = tab.locator(".castray-3d canvas").screenshot()
     return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).reshape(-1, 3)
+
+
+def test_the_hemisphere_stands_over_the_event_at_which_the_page_opens():
+    settings = SETTINGS.at_size_of(SCENE)
+    found = record()
+    cursor = Cursor(16, 20, tuple(len(path.events) for path in found.paths), 1, 2)
+    over = Hemisphere(lens.over(SCENE.at(settings), planted(settings), found, 1, 2), 2.0, Speaker("en"))
+    view = View(Speaker("en"))
+    view.add("", SCENE, (16, 20), found.paths, 1, 2, over=over)
+    told = json.loads(view.script())["places"][0]["over"]
+    assert (told["path"], told["event"]) == (1, 2)
+    widths = [mesh["width"] for mesh in told["meshes"]]
+    assert widths.count(2) == 2 and widths[-1] == 3  # shell and p are lines, f comes last
+    drawn = over.drawn["lobe_f"][0].astype("<f4").tobytes()
+    assert base64.b64decode(told["meshes"][-1]["points"]) == drawn
+    assert page(SCENE, found, cursor, Speaker("en")).count('"over":null') == 1
 
 
 def test_the_page_names_nothing_outside_itself_and_speaks_its_language():

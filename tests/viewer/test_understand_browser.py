@@ -128,3 +128,19 @@ def test_a_dot_on_the_disc_leads_to_the_path_that_tried_it(page, inspected):
     place = [v / (1 + abs(z)) ** 0.5 * r for v in (x, y)]
     page.mouse.click(box["x"] + box["width"] / 4 + place[0], box["y"] + r + 4 + place[1])
     stands_at(page, dot["path"], dot["event"])
+
+
+def test_the_hemisphere_comes_and_goes_in_3d_by_the_button_and_by_a_key(page, inspected):
+    light = next(e for e in inspected["samples"][0]["events"] if e["kind"] == "light")
+    page.get_by_test_id(f"row-{light['step']}").click()
+    assert page.get_by_test_id("legend-lobe_f").count() == 0
+    page.get_by_test_id("tab-vertex").click()
+    page.get_by_test_id("lobes").click()
+    page.locator("[data-testid=lobes][aria-pressed=true]").wait_for()
+    assert "f |cos|, up to " in page.get_by_test_id("legend-lobe_f").inner_text()
+    assert page.get_by_test_id("legend-lobe_p").inner_text() == "p, up to 0.31831 1/sr"
+    near = page.evaluate("() => window.trame.state.get('camera').position")
+    page.get_by_test_id("tab-event").click()
+    page.keyboard.press("h")
+    page.get_by_test_id("legend-lobe_f").wait_for(state="detached")
+    assert page.evaluate("() => window.trame.state.get('camera').position") != near

@@ -36,23 +36,24 @@ def svg_icon():
     return f"data:image/svg+xml;base64,{mark}"
 
 
-def page(scene, record, cursor, say, rgb=None):
-    """One pixel's paths as a document, opened where the cursor stands. record: of `tracer.inspect`."""
+def page(scene, record, cursor, say, rgb=None, over=None):
+    """One pixel's paths as a document, opened where the cursor stands. record: of `tracer.inspect`; over: the
+    Hemisphere that is shown there."""
     title = say("offline.title", scene=scene.name, x=cursor.x, y=cursor.y)
     styles, scripts = furniture()
     body = (
-        f'<main class="alone"><h1>{escape(title)}</h1>{figure(scene, record, cursor, say, rgb)}'
+        f'<main class="alone"><h1>{escape(title)}</h1>{figure(scene, record, cursor, say, rgb, over)}'
         f"<p>{escape(say('offline.help'))}</p></main>"
     )
     return document(title, body, say.language, styles, f"{scripts}\n{BEGIN}")
 
 
-def figure(scene, record, cursor, say, rgb=None):
+def figure(scene, record, cursor, say, rgb=None, over=None):
     """The same as a part of a page's body: one of them, whose page has the furniture and ends with BEGIN."""
     paths = {k: record.paths[k] for k in _worth_drawing(record, cursor.path)}
     view = View(say)
     pixel = (cursor.x, cursor.y)
-    view.add("", scene, pixel, paths.values(), list(paths).index(cursor.path), cursor.event, rgb)
+    view.add("", scene, pixel, paths.values(), list(paths).index(cursor.path), cursor.event, rgb, over)
     return (
         f'<div class="castray-3d"></div><script type="application/json" id="paths">{view.script()}</script>'
     )

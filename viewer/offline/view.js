@@ -68,7 +68,7 @@ window.castrayView = (element, data) => {
   }
   const programs = gl && { line: program(LINE, STROKE), point: program(POINT, DOT), face: program(FACE, SKIN) };
   const place = { eye: [0, 0, 1], to: [0, 0, 0], up: [0, 1, 0] };
-  let now = { place: 0, path: 0, event: 0 }, solids = [], strokes = null, dots = null, scene = -1, drag = null;
+  let now = { place: 0, path: 0, event: 0 }, solids = [], over = [], strokes = null, dots = null, scene = -1, drag = null;
 
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const here = () => data.places[now.place], room = () => data.scenes[here().scene], path = () => here().paths[now.path];
@@ -78,9 +78,10 @@ window.castrayView = (element, data) => {
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(values), gl.STATIC_DRAW);
     return made;
   }
+  const places = (mesh) => new Float32Array(bytes(mesh.points));
   // corners of every face, each with the normal of its face
   function solid(surface) {
-    const points = new Float32Array(bytes(surface.points)), faces = new Uint32Array(bytes(surface.faces)), packed = [];
+    const points = places(surface), faces = new Uint32Array(bytes(surface.faces)), packed = [];
     for (let f = 0; f < faces.length; f += 3) {
       const [a, b, c] = [0, 1, 2].map((k) => [...points.subarray(3 * faces[f + k], 3 * faces[f + k] + 3)]);
       const n = unit(cross(sub(b, a), sub(c, a)));
@@ -94,7 +95,9 @@ window.castrayView = (element, data) => {
     if (gl) { solids.forEach((s) => gl.deleteBuffer(s.buffer)); solids = room().surfaces.map(solid); }
     aim();
   }
-  function aim() { const { position, focalPoint, viewUp } = room().camera; Object.assign(place, { eye: [...position], to: [...focalPoint], up: [...viewUp] }); }
+  // over the event at which the page opens, if it has one
+  const hemisphere = () => { const there = here().over; return there && there.path === now.path && there.event === now.event ? there : null; };
+  function aim() { const { position, focalPoint, viewUp } = (hemisphere() || room()).camera; Object.assign(place, { eye: [...position], to: [...focalPoint], up: [...viewUp] }); }
 
   function line(into, a, b, width, colour, dash = 0, tip = width) {
     const corner = [[0, -1], [1, -1], [1, 1], [0, -1], [1, 1], [0, 1]];
@@ -121,11 +124,19 @@ window.castrayView = (element, data) => {
       if (outcome !== "idle") dotted(q, outcome === "lit" ? 9 : 15, colours[outcome], outcome === "blocked" ? 1 : 0);
     }
     here().paths.forEach((other, k) => { if (k !== now.path) other.line.slice(1).forEach((b, j) => line(lines, other.line[j], b, WIDE.others * many, colours.others)); });
+    const lobes = hemisphere() || { meshes: [], labels: [] };
+    for (const mesh of lobes.meshes.filter((m) => m.width === 2)) {
+      const at = places(mesh), ends = new Uint32Array(bytes(mesh.faces)), corner = (k) => [...at.subarray(3 * ends[k], 3 * ends[k] + 3)];
+      for (let k = 0; k < ends.length; k += 2) line(lines, corner(k), corner(k + 1), WIDE.others * many, mesh.colour);
+    }
+    over.forEach((s) => gl.deleteBuffer(s.buffer));
+    over = lobes.meshes.filter((m) => m.width === 3).map(solid);
     if (strokes) [strokes, dots].forEach((s) => gl.deleteBuffer(s.buffer));
     strokes = { buffer: buffer(lines), count: lines.length / 14 };
     dots = { buffer: buffer(points), count: points.length / 8 };
     labels.replaceChildren();
     for (const [name, start, way, length] of event.arrows) Object.assign(make("span", "label", labels, data.names[name]), { at: add(start, way, 1.15 * length) }).style.color = `rgb(${colours[name].map((c) => 255 * c)})`;
+    for (const { text: words, at } of lobes.labels) Object.assign(make("span", "label", labels, words), { at });
   }
 
   const ahead = () => unit(sub(place.to, place.eye)), aside = () => unit(cross(ahead(), place.up));
@@ -166,7 +177,7 @@ window.castrayView = (element, data) => {
     use(programs.line, strokes, [["a", 3], ["b", 3], ["corner", 2], ["width", 2], ["colour", 3], ["dash", 1]], 14);
     gl.uniform2f(uniform(programs.line, "size"), width, height);
     gl.drawArrays(gl.TRIANGLES, 0, strokes.count);
-    for (const s of solids) {
+    for (const s of [...over, ...solids]) { // the lobes first: nothing that is seen through hides them
       (s.culled ? gl.enable : gl.disable).call(gl, gl.CULL_FACE);
       use(programs.face, s, [["a", 3], ["n", 3]], 6);
       gl.uniform3f(uniform(programs.face, "eye"), ...place.eye);

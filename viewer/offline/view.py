@@ -7,6 +7,7 @@ import json
 import numpy as np
 
 from tracer.picture import to_srgb
+from viewer import hemisphere
 from viewer.caption import caption, light_outcome
 from viewer.surfaces import BACKGROUND, COLOURS, bounds, surfaces, viewpoint
 from viewer.traces import NAMES, Strokes, here, light_samples, vertices, vertices_until
@@ -22,13 +23,14 @@ class View:
         self.say = say
         self._scenes, self._pictures, self.places = {}, {}, []
 
-    def add(self, name, scene, pixel, paths, path=0, event=0, rgb=None):
+    def add(self, name, scene, pixel, paths, path=0, event=0, rgb=None, over=None):
         """Add a place: a pixel (x, y), the recorded paths that are drawn, and where in them one stands; rgb
-        (H, W, 3): the picture beside it. The place's number."""
+        (H, W, 3): the picture beside it; over: the Hemisphere over that event. The place's number."""
         number, size = self._scene(scene)
         told = [self._path(index, one, scene, size) for index, one in enumerate(paths)]
         at = {"name": name, "scene": number, "x": pixel[0], "y": pixel[1], "picture": self._picture(rgb)}
-        self.places.append(at | {"paths": told, "path": path, "event": event})
+        shown = over and {"path": path, "event": event, **_over(over)}
+        self.places.append(at | {"paths": told, "path": path, "event": event, "over": shown})
         return len(self.places) - 1
 
     def script(self, start=0):
@@ -106,13 +108,31 @@ def png(rgb):
 
 
 def _surface(surface):
+    looks = surface.colour, surface.opacity, not surface.lamp, bool(surface.one_sided)
+    return _mesh(surface.vertices, surface.faces, *looks)
+
+
+def _over(over):
+    """A Hemisphere as meshes in the order in which they are drawn; faces of two places are lines."""
+    meshes = []
+    for name, colour in hemisphere.COLOURS.items():
+        points, cells = over.drawn[name]
+        if len(cells):
+            lit = name in hemisphere.LIT
+            meshes.append(_mesh(points, cells, colour, hemisphere.OPACITY.get(name, 1.0), lit, lit))
+    labels = [{"text": one["text"], "at": _plain(one["at"])} for one in over.labels]
+    return {"meshes": meshes, "labels": labels, "camera": over.viewpoint()}
+
+
+def _mesh(points, cells, colour, opacity, lit, culled):
     return {
-        "colour": _plain(surface.colour),
-        "opacity": surface.opacity,
-        "lit": not surface.lamp,
-        "culled": bool(surface.one_sided),
-        "points": _text(np.ascontiguousarray(surface.vertices, "<f4").tobytes()),
-        "faces": _text(np.ascontiguousarray(surface.faces, "<u4").tobytes()),
+        "colour": _plain(colour),
+        "opacity": opacity,
+        "lit": lit,
+        "culled": culled,
+        "width": cells.shape[1],
+        "points": _text(np.ascontiguousarray(points, "<f4").tobytes()),
+        "faces": _text(np.ascontiguousarray(cells, "<u4").tobytes()),
     }
 
 

@@ -2,7 +2,19 @@
 
 from viewer.panels.panel import Panel
 
-KEYS = ("arrows", "paths", "ends", "space", "shift", "picked", "hits", "differs", "lesson", "question")
+KEYS = (
+    "arrows",
+    "paths",
+    "ends",
+    "space",
+    "shift",
+    "picked",
+    "hits",
+    "differs",
+    "lobes",
+    "lesson",
+    "question",
+)
 
 TEMPLATE = """
 <div class="help" data-testid="help">

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from lessons.zoo import planted
 from viewer.caption import named
 from viewer.numerals import several, short
 from viewer.panels.panel import Panel
@@ -18,10 +17,11 @@ FAINT = 512  # of the bounces drawn anew, as dots
 
 TEMPLATE = """
 <div v-if="vertex" class="vertex" data-testid="vertex"><p v-if="!vertex.lens" class="dim">{{ w.vertex_none }}</p>
-  <template v-else><p data-testid="vertex-at">{{ vertex.at }}</p>
+  <template v-else><div class="between"><p data-testid="vertex-at">{{ vertex.at }}</p>
+      <button data-testid="lobes" :aria-pressed="vertex.lobes" :class="{now: vertex.lobes}" :title="w.lobes_help" @click="trigger('lobes')">{{ w.lobes }}</button></div>
     <castray-lens :lens="vertex.lens" :label="w.vertex_lens" @go="trigger('at', $event)"></castray-lens>
     <div class="drawn-bounces"><castray-cells :lens="vertex.lens" :label="vertex.verdict"></castray-cells><div><p v-if="vertex.drawn" class="dim">{{ vertex.drawn }}</p>
-      <p :class="vertex.judged" data-testid="lens-verdict">{{ vertex.verdict }}</p><p v-for="lobe in vertex.lobes" :key="lobe">{{ lobe }}</p></div></div>
+      <p :class="vertex.judged" data-testid="lens-verdict">{{ vertex.verdict }}</p><p v-for="lobe in vertex.counted" :key="lobe">{{ lobe }}</p></div></div>
     <ul class="dots" :aria-label="vertex.tried"><li v-for="k in ['bounce', 'lit', 'blocked', 'idle']" :key="k"><i :class="k"></i>{{ w['dot_' + k] }}</li></ul>
     <p class="dim" data-testid="lens-tried" :data-exact="JSON.stringify(vertex.tried_exact)">{{ vertex.tried }}</p>
     <table class="data"><tbody><tr v-for="v in vertex.vectors" :key="v.name" :data-testid="'vector-' + v.name" :data-exact="JSON.stringify(v.exact)">
@@ -39,19 +39,19 @@ TEMPLATE = """
 
 def show(session, say):
     """The lens and the microscope at the event; no lens before the first surface."""
-    scene, path = session.scene.at(session.settings), session.cursor.path
-    steps = None if session.given else planted(session.settings)
-    lens = lenses.over(scene, steps, session.record, path, session.cursor.event)
+    lens = lenses.here(session)
     if lens is None:
-        return {"lens": None}
+        return {"lens": None, "lobes": bool(session.shelf.get(lenses.SHOWN))}
+    scene = lens.vertex.scene
     hit = last_hit(session.path, session.cursor.event)
     names = {name: named(name, hit[name], scene) for name in ("shape", "bsdf")}
     return {
         "at": say("lens.at", **names),
+        "lobes": bool(session.shelf.get(lenses.SHOWN)),
         "lens": _drawn(lens, say),
         "drawn": say("lens.counts", draws=DRAWS) if lens.counts else "",
         **judged(lens, say),
-        "lobes": lobes(lens, say),
+        "counted": lobes(lens, say),
         "tried": tried(lens, say),
         "tried_exact": [one.as_dict() for one in lens.tried],
         "vectors": [_vector(name, w, say) for name, w in lens.vectors.items()],
@@ -137,4 +137,16 @@ def _ends(session, scene, say):
     }
 
 
-PANEL = Panel("vertex", "tab", "event", 37, TEMPLATE, show, lazy=True)
+def calls(window):
+    """What the panel may ask for."""
+
+    def shown(*_):
+        """Show the hemisphere in 3D, or no longer."""
+        shelf = window.session.shelf
+        shelf[lenses.SHOWN] = not shelf.get(lenses.SHOWN)
+        window.refresh("event")
+
+    return {"lobes": shown}
+
+
+PANEL = Panel("vertex", "tab", "event", 37, TEMPLATE, show, calls, lazy=True)

@@ -7,14 +7,20 @@ from json import dumps
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import tracer
 from lessons.zoo import planted
 from tracer.settings import TracerError
 from tracer.what_if import supposed
 from viewer.examining import examined
+from viewer.hemisphere import Hemisphere
 from viewer.offline import page
 from viewer.replay import replayed
 from viewer.sharing.report import report
+from viewer.surfaces import bounds
+from viewer.understanding.lens import SHOWN
+from viewer.understanding.lens import here as lens_here
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,7 @@ class Moment:
     cursor: Any
     suppositions: dict  # {(depth, kind): value} of the path
     chart: Any  # of the doctor, if it was asked
+    lens: Any  # over the vertex, if it is shown in 3D
     say: Any
 
     @classmethod
@@ -46,6 +53,7 @@ class Moment:
             c,
             s.suppositions,
             s.desk.get("doctor"),
+            lens_here(s) if s.shelf.get(SHOWN) else None,
             say,
         )
 
@@ -84,8 +92,10 @@ def _path(moment):
 
 
 def _view(moment):
-    rgb = None if moment.picture is None else moment.picture.rgb
-    return page(moment.scene, moment.record, moment.cursor, moment.say, rgb).encode("utf-8")
+    m, rgb = moment, None if moment.picture is None else moment.picture.rgb
+    size = float(np.linalg.norm(np.subtract(*bounds(m.scene))))
+    over = Hemisphere(m.lens, size, m.say) if m.lens else None
+    return page(m.scene, m.record, m.cursor, m.say, rgb, over).encode("utf-8")
 
 
 def _doctor(moment):

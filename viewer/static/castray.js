@@ -252,7 +252,7 @@
   const KEYS = { ArrowLeft: "previous", ArrowRight: "next", ArrowUp: "up", ArrowDown: "down", Home: "first", End: "last" };
   const TABS = { "?": "help", l: "lesson" };
   const CHOSEN = "castray-language"; // where the browser keeps it
-  const CALLS = { "[": ["back", [-1]], "]": ["back", [1]], n: ["find_step", [1]], p: ["find_step", [-1]], d: ["compare_part", []] };
+  const CALLS = { "[": ["back", [-1]], "]": ["back", [1]], n: ["find_step", [1]], p: ["find_step", [-1]], d: ["compare_part", []], h: ["lobes", []] };
   const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
   // One tab at a time: this one asks to lead, follows the link in its address, and hears the keys.

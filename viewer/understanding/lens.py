@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lessons.zoo import planted
 from viewer.understanding import draws
 from viewer.understanding.places import places
 from viewer.understanding.samples import outcome
@@ -11,6 +12,7 @@ from viewer.understanding.vertex import Vertex
 
 NEAR = np.cos(np.radians(8.0))  # between normals, and between wo, of vertices that are looked at together
 TERMS = ("F", "D", "G1", "G2")
+SHOWN = "hemisphere"  # what the shelf keeps of it: whether it is shown in 3D
 STOPPED = ("light.blocked", "light.self", "light.phantom")
 
 
@@ -30,14 +32,14 @@ class Tried:
 
 @dataclass(frozen=True)
 class Lens:
-    """What is seen over a vertex, directions as Vertex shows them.
+    """What is seen over a vertex, directions as `vertex` shows them.
 
     vectors: {name: (3,)} n, ng, wo, and wi, h where there are any. sheets: (sides, 2, SIDE, SIDE) f |cos| and
     p. plane: (angles, f |cos|, p) in the plane of n and wo, degrees from n, wo's is negative. drawn: (3, D)
     directions of bounces drawn anew, counts: the Counts of them. terms: {name: (here, head on)} behind f.
     """
 
-    sides: tuple
+    vertex: Vertex
     vectors: dict
     sheets: np.ndarray
     plane: tuple
@@ -45,6 +47,11 @@ class Lens:
     drawn: np.ndarray
     counts: tuple
     terms: dict
+
+    @property
+    def sides(self):
+        """+1 above the normal and -1 below it, those that can be seen or reached."""
+        return self.vertex.sides
 
     @property
     def worst(self):
@@ -66,6 +73,29 @@ class Lens:
         }
 
 
+@dataclass
+class Kept:
+    """The Lens of the event that a session stands at: both the tab and the 3D view show it."""
+
+    path: object  # the recorded path
+    event: int
+    lens: Lens | None
+
+    def close(self):
+        """Nothing goes on behind it."""
+
+
+def here(session):
+    """The Lens over the vertex that a session stands at, None before the first."""
+    kept, event = session.desk.get("lens"), session.cursor.event
+    if kept is None or kept.path is not session.path or kept.event != event:
+        scene, steps = session.scene.at(session.settings), planted(session.settings)
+        asked = None if session.given else steps
+        found = over(scene, asked, session.record, session.cursor.path, event)
+        kept = session.desk["lens"] = Kept(session.path, event, found)
+    return kept.lens
+
+
 def over(scene, steps, record, path, event):
     """The Lens over the vertex of an event, None before the first. scene: at the record's settings; steps:
     those of its tracer, None for one that cannot be asked."""
@@ -80,7 +110,7 @@ def over(scene, steps, record, path, event):
             shown, sample = draws.drawn(vertex, steps)
             drawn, counts = shown[:, sample.pdf > 0.0], tuple(draws.counted(vertex, shown, sample))
         return Lens(
-            vertex.sides,
+            vertex,
             _vectors(vertex, here.event),
             np.stack([vertex.sheet(side) for side in vertex.sides]),
             _plane(vertex),

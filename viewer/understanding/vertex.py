@@ -40,12 +40,19 @@ class Vertex:
         c, s = self._turn
         return np.stack((c * local[0] + s * local[1], c * local[1] - s * local[0], local[2])).astype(float)
 
-    def asked(self, shown):
-        """Luminance of f |cos| (N,) and p (N,) along shown directions (3, N)."""
+    def world(self, shown):
+        """Shown directions (3, N) as the scene has them."""
+        return self._world(shown, self.times(1))
+
+    def _world(self, shown, surface):
         c, s = self._turn
         local = np.stack((c * shown[0] - s * shown[1], s * shown[0] + c * shown[1], shown[2]))
+        return surface.frame.to_world(local.astype(self.scene.dtype))
+
+    def asked(self, shown):
+        """Luminance of f |cos| (N,) and p (N,) along shown directions (3, N)."""
         surface = self.times(shown.shape[1])
-        wi = surface.frame.to_world(local.astype(self.scene.dtype))
+        wi = self._world(shown, surface)
         f = np.tensordot(LUMINANCE, surface.f(wi).astype(float), axes=1)
         return f * np.abs(shown[2]), surface.pdf(wi).astype(float)
 
@@ -55,8 +62,7 @@ class Vertex:
         a, b = (v.ravel() for v in np.meshgrid(place, place))
         r2 = a * a + b * b
         inside = r2 < 1.0
-        long = np.sqrt(2.0 - r2[inside])
-        found = self.asked(np.stack((a[inside] * long, b[inside] * long, side * (1.0 - r2[inside]))))
+        found = self.asked(off_disc(np.stack((a[inside], b[inside])), side))
         sheets = np.full((2, SIDE * SIDE), np.nan)
         sheets[:, inside] = found
         return sheets.reshape(2, SIDE, SIDE)
@@ -65,3 +71,9 @@ class Vertex:
 def on_disc(shown):
     """Places (2, N) on the disc, of radius 1, of directions (3, N)."""
     return shown[:2] / np.sqrt(1.0 + np.abs(shown[2]))
+
+
+def off_disc(place, side):
+    """Directions (3, N) of a side at places (2, N) on the disc: what `on_disc` undoes."""
+    r2 = (place * place).sum(axis=0)
+    return np.concatenate((place * np.sqrt(2.0 - r2), side * (1.0 - r2)[None]))
