@@ -29,13 +29,15 @@ def serve(
     lesson=None,
     against=None,
     framed=False,
+    engine="numpy",
 ):
     """Open the viewer on a loaded scene until Ctrl-C; prints its address alone on one line of stdout.
 
     start: (x, y, path, event), or None for a telling place; recording: the Folder that it is of; what_if:
     suppositions about the path there; lesson: the number of one to be read; against: what the picture is
-    compared with, a bug's id or a file; framed: whether pages of this machine may show it in a frame.
-    TracerError where port or place will not do.
+    compared with, a bug's id or a file; framed: whether pages of this machine may show it in a frame;
+    engine: who makes the picture, "numpy", "gl" where it can, or "auto".
+    TracerError where port, place or engine will not do.
     """
     there = None if against is None or rival.known(against) else rival.of_file(against)
     if there is not None:
@@ -47,7 +49,7 @@ def serve(
         session.suppose(what_if or {})
     except IndexError as error:
         raise TracerError(f"link: {error}: there is no such place") from None
-    _run(session, port, open_browser, lesson, framed)
+    _run(session, port, open_browser, lesson, framed, engine)
 
 
 def serve_learner(file, scene, settings, port=None, open_browser=True, against=None):
@@ -71,18 +73,20 @@ def serve_given(given, port=None, open_browser=True, against=None):
     _run(session, port, open_browser)
 
 
-def serve_lesson(number, port=None, open_browser=True):
+def serve_lesson(number, port=None, open_browser=True, engine="numpy"):
     """Open the viewer where a lesson begins, the lesson beside it."""
     start = links.of_moment(lesson(number).moments["start"])
-    serve(tracer.load(start.scene), start.settings, port, open_browser, start.place, lesson=number)
+    scene = tracer.load(start.scene)
+    serve(scene, start.settings, port, open_browser, start.place, lesson=number, engine=engine)
 
 
-def serve_link(text, port=None, open_browser=True, against=None):
+def serve_link(text, port=None, open_browser=True, against=None, engine="numpy"):
     """Open the viewer where a link points; against: another thing to compare with than the link names."""
     asked = links.parse(text)
     against = against or asked.compare or None
     scene = changed(Scenes().find(asked.scene), asked.changes)
-    serve(scene, asked.settings, port, open_browser, asked.place, what_if=asked.what_if, against=against)
+    more = {"what_if": asked.what_if, "against": against, "engine": engine}
+    serve(scene, asked.settings, port, open_browser, asked.place, **more)
 
 
 class Scenes:
@@ -101,9 +105,12 @@ class Scenes:
         return self.loaded[name]
 
 
-def _run(session, port, open_browser, number=None, framed=False):
+def _run(session, port, open_browser, number=None, framed=False, engine="numpy"):
     from trame.app import get_server
 
+    gl = _gl_server(engine)
+    if gl is not None:
+        session.shelf["gl"] = gl
     from viewer.calls import Calls
     from viewer.opening.routes import serve_opening, show_findings
     from viewer.sharing.routes import serve_files
@@ -147,15 +154,28 @@ def _run(session, port, open_browser, number=None, framed=False):
     server.controller.on_server_bind.add(bind)
     server.controller.on_server_ready.add(ready)
     try:
+        if engine == "gl":
+            gl.greet()
         _listen(server, port)
     except KeyboardInterrupt:
         pass
     finally:
         window.stop_painting()
+        if gl is not None:
+            gl.close()
         if watched is not None:
             watched.stop()
         session.close()
     print("castray: viewer closed", file=sys.stderr)
+
+
+def _gl_server(engine):
+    """The process of the gl engine, begun; None where it is not asked for."""
+    if engine == "numpy":
+        return None
+    from tracer.engine.gl.server import Server
+
+    return Server(auto=engine == "auto")
 
 
 def _listen(server, port):

@@ -11,6 +11,7 @@ from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
 from viewer.spoken_help import PATH_OPTIONS
 
+ENGINES = ("numpy", "gl", "auto")
 SMALL_SIDE = 64  # pixels
 
 
@@ -84,6 +85,12 @@ Json = Annotated[bool, Parameter(help="Print one JSON document and nothing else.
 def print_json(document):
     """One JSON document on standard output."""
     print(dumps(document, allow_nan=False, ensure_ascii=True))
+
+
+def check_engine(engine):
+    """TracerError unless it is one of ENGINES."""
+    if engine not in ENGINES:
+        raise TracerError(f"engine: {engine!r} is not known; choose one of {', '.join(ENGINES)}")
 
 
 def shrunk(settings, scene):

@@ -17,7 +17,7 @@ def is_recording(text):
     return path.is_dir() and (text not in tracer.built_in_scenes() or (path / folder.HEADER).exists())
 
 
-def serve_recording(text, port=None, open_browser=True, against=None):
+def serve_recording(text, port=None, open_browser=True, against=None, engine="numpy"):
     """Open the viewer on a recording, at the place named behind its # or at its first path."""
     from viewer import app  # which itself looks at recordings
 
@@ -29,7 +29,7 @@ def serve_recording(text, port=None, open_browser=True, against=None):
         said = compared(place, scene, *start[:2])
         if said:
             print(f"castray: {said}", file=sys.stderr)
-    app.serve(scene, place.settings, port, open_browser, start, place, against=against)
+    app.serve(scene, place.settings, port, open_browser, start, place, against=against, engine=engine)
 
 
 def compared(place, scene, x, y):

@@ -16,8 +16,8 @@ from viewer.numerals import luminance
 from viewer.replay import inspect_command
 
 KEPT = (
-    "scene", "settings", "spp_done", "picture", "recording", "given", "overlay", "record", "cursor",
-    "history", "supposing",
+    "scene", "settings", "spp_done", "picture", "numpy_why", "recording", "given", "overlay", "record",
+    "cursor", "history", "supposing",
 )  # fmt: skip
 
 
@@ -52,6 +52,7 @@ class Session:
         self.close()
         self.scene, self.settings = scene, settings.at_size_of(scene)
         self.spp_done, self.picture = 0, None
+        self.numpy_why = ""  # why NumPy made the picture, where gl was asked for
         self.recording, self.given, self.overlay = None, None, None
         self.record, self.cursor, self.history = None, None, History()
         self.supposing = None
@@ -186,8 +187,10 @@ class Session:
 
     @property
     def pace(self):
-        """Seconds that a path of this picture took, None before there is one."""
-        return self.picture and self.picture.seconds / self.picture.paths
+        """Seconds that a path of this picture took NumPy, None before it has made one."""
+        if self.picture is None or self.picture.engine != "numpy":
+            return None
+        return self.picture.seconds / self.picture.paths
 
     @property
     def link(self):

@@ -10,7 +10,7 @@ from viewer.comparing.comparer import beside
 from viewer.hemisphere import Hemisphere
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
-from viewer.render import Painter
+from viewer.render import COMPARED, Painter
 from viewer.stage import Companion, Stage
 from viewer.traces import here
 from viewer.understanding.lens import SHOWN
@@ -165,9 +165,10 @@ class Window:
 
     def open(self, link):
         """Turn to what a Link says."""
-        before = self.session.scene
+        before, against = self.session.scene, self.session.against
         self.pause()
-        if self.session.open(link):
+        renewed = self.session.open(link)
+        if renewed or (self.session.against != against and self.gl):
             if self.session.scene is not before:
                 self.furnish()
                 self.state.rgb = b""
@@ -258,7 +259,9 @@ class Window:
             self._painted(self.session.given.picture, settings.spp)
             return
         self._tell_progress(0, 1)
-        painter = Painter(self.session.scene, settings)
+        compared = bool(self.session.against)
+        painter = Painter(self.session.scene, settings, None if compared else self.gl)
+        painter.why = COMPARED if compared and self.gl else ""
 
         def here(call):
             """The call made in the loop, from the painter's thread; not of a painter that was replaced."""
@@ -274,6 +277,11 @@ class Window:
         for follower in self.followers:
             follower.begun()
 
+    @property
+    def gl(self):
+        """The process that the picture is asked of first, if there is one."""
+        return self.session.shelf.get("gl")
+
     def stop_painting(self):
         """Give up the picture that is being rendered, if there is one."""
         if self.painter:
@@ -281,9 +289,12 @@ class Window:
 
     def _painted(self, picture, spp):
         self.session.spp_done, self.session.picture = spp, picture
+        self.session.numpy_why = self.painter.why if self.painter else ""
         complete = spp == self.session.settings.spp
         with self.state as state:
             state.rgb = picture.rgb.tobytes()
+            if self.gl:
+                self.show("picture")  # who made it
             self._tell_progress(None if complete else 0, spp)
             for follower in self.followers:
                 follower.painted()

@@ -12,10 +12,17 @@ from cyclopts import Parameter
 import tracer
 from tracer.picture import check_path
 from tracer.settings import TracerError
-from viewer.options import Json, PathOptions, Whole, print_json, scene_of, settings_and_steps
+from viewer.options import (
+    Json,
+    PathOptions,
+    Whole,
+    check_engine,
+    print_json,
+    scene_of,
+    settings_and_steps,
+)
 from viewer.progress import watched
 
-ENGINES = ("numpy", "gl", "auto")
 MOST_SPP = 4096  # samples of a pixel where only an error is asked for
 
 
@@ -66,8 +73,7 @@ def render(
     explain
         Say what the scene needs, what is skipped, and why.
     """
-    if engine not in ENGINES:
-        raise TracerError(f"engine: {engine!r} is not known; choose one of {', '.join(ENGINES)}")
+    check_engine(engine)
     if engine == "gl" and record is not None:
         raise TracerError("engine: gl keeps no paths; leave out --record, or choose engine numpy")
     if cluster is not None and (engine != "numpy" or workers is not None):

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from tracer.settings import TracerError
 from viewer.link import is_link
-from viewer.options import CheckOptions, PathOptions, Whole, scene_of, settings_and_steps
+from viewer.options import CheckOptions, PathOptions, Whole, check_engine, scene_of, settings_and_steps
 
 
 def view(
@@ -18,6 +18,7 @@ def view(
     port: Annotated[int | None, Whole] = None,
     browser: bool = True,
     compare: str | None = None,
+    engine: str = "numpy",
     options: PathOptions | None = None,
 ):
     """Open the viewer: click a pixel, step through its paths. Prints its address.
@@ -41,6 +42,10 @@ def view(
     compare
         What the picture is compared with: a bug of the zoo, right (the tracer without a bug), a picture's
         file (such as your own), or a recording's folder.
+    engine
+        Who makes the picture: numpy; gl, on the graphics card (needs moderngl and OpenGL 4.3), and what it
+        cannot do, such as a bug, by NumPy; or auto: gl where there is a graphics card. The paths that you
+        pick are NumPy's: the same but for rounding.
     """
     from tracer.picture import is_picture
     from viewer import app as viewer_app
@@ -49,32 +54,35 @@ def view(
 
     if port is not None and not 0 <= port <= 65535:
         raise TracerError(f"port: {port} is not between 0 and 65535")
+    check_engine(engine)
     if lesson is not None:
         if any(said is not None for said in (what, options, compare, scene)):
             raise TracerError("view: a lesson has its own scene and settings; leave out yours")
-        viewer_app.serve_lesson(lesson, port, browser)
+        viewer_app.serve_lesson(lesson, port, browser, engine)
         return
     what = "cornell_unit" if what is None else what
     if what.lower().endswith((".py", ".jsonl")):
+        if engine != "numpy":
+            raise TracerError(f"engine: is for castray's own pictures; {what} brings its own")
         _serve_own(what, scene, port, browser, compare, options)
         return
     if scene is not None:
         raise TracerError(f"scene: is for your own tracer, FILE.py, or its log, FILE.jsonl; {what} is none")
     if is_link(what):
-        viewer_app.serve_link(what, port, browser, compare)
+        viewer_app.serve_link(what, port, browser, compare, engine)
         return
     if is_recording(what):
         if options is not None:
             raise TracerError(f"{what}: a recording has its own settings; leave out the path options")
-        serve_recording(what, port, browser, compare)
+        serve_recording(what, port, browser, compare, engine)
         return
     if is_picture(what):
         if options is not None:
             raise TracerError(f"{what}: a picture has its own settings; leave out the path options")
-        serve_picture(what, port, browser, compare)
+        serve_picture(what, port, browser, compare, engine)
         return
     settings, _ = settings_and_steps(options)
-    viewer_app.serve(scene_of(what, options), settings, port, browser, against=compare)
+    viewer_app.serve(scene_of(what, options), settings, port, browser, against=compare, engine=engine)
 
 
 def _serve_own(file, scene, port, browser, compare, options):

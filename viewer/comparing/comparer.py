@@ -83,7 +83,10 @@ class Comparer:
         before, self.session.against = self.session.desk.pop("compare", None), name
         if before:
             before.close()
-        self.begun()
+        if self.window.gl:
+            self.window.paint()  # by whom, hangs on whether it is compared
+        else:
+            self.begun()
         self.window.refresh("path")
 
     def look(self, view):

@@ -11,6 +11,7 @@ TEMPLATE = """
     :rival="rival_rgb" :wipe="wipe" :style="{'--aspect': picture.width / picture.height}" @wipe="wipe = $event" @pick="trigger('pick', $event)"></castray-picture>
   <label v-if="rival_rgb.byteLength" class="row wipe"><span>a</span><input type="range" min="0" max="1" step="0.01" data-testid="wipe" :aria-label="w.wipe" :title="w.wipe"
     :value="wipe" @input="wipe = Number($event.target.value)"><span>b</span></label>
+  <p v-if="picture.engine" class="dim engine" role="status" data-testid="engine" :title="picture.engine.title">{{ picture.engine.text }}</p>
   <castray-legend v-if="picture.overlay" :overlay="picture.overlay" :words="w" @close="trigger('uncover')"></castray-legend>
   <div class="row">
     <label>x <input type="number" inputmode="numeric" min="0" :max="picture.width - 1" data-testid="pixel-x"
@@ -49,7 +50,19 @@ def show(session, say):
         "behind": session.history.behind,
         "ahead": session.history.ahead,
         "overlay": session.overlay and session.overlay.legend(say),
+        "engine": _engine(session, say),
     }
+
+
+def _engine(session, say):
+    """Who made the picture, in a line and a tooltip, where gl was asked for; None otherwise."""
+    gl = session.shelf.get("gl")
+    if gl is None or session.picture is None or session.given is not None:
+        return None
+    key, told = "engine.gl", {"renderer": gl.renderer}
+    if session.picture.engine == "numpy":
+        key, told = "engine.numpy", {"why": say.error(session.numpy_why)}
+    return {"text": say(key, **told), "title": say(f"{key}.title", **told)}
 
 
 PANEL = Panel("picture", "left", "pixel", 10, TEMPLATE, show)

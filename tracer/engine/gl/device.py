@@ -21,7 +21,12 @@ def device():
             "engine: gl needs the package moderngl, which is not installed: "
             "pip install moderngl, or choose engine numpy"
         )
-    import moderngl
+    try:
+        import moderngl
+    except ImportError as error:
+        raise TracerError(
+            f"engine: gl needs the package moderngl, which cannot be imported ({error}); choose engine numpy"
+        ) from None
 
     said = []
     for backend in ({"backend": "egl"}, {}) if sys.platform.startswith("linux") else ({},):
