@@ -34,7 +34,7 @@ class Server:
         self.renderer = ""  # who draws, as the driver calls it, once that is known
 
     def greet(self):
-        """Wait until it has started. Raises TracerError where OpenGL is missing, or is not what auto takes."""
+        """Wait until it has started. Raises TracerError without OpenGL, or where auto leaves it alone."""
         if self._refused:
             raise self._refused
         if not self._greeted:
