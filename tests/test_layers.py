@@ -20,6 +20,7 @@ FLOORS = {
     "tracer.warp": 0,
     "tracer.sampler": 0,
     "tracer.derived": 0,
+    "tracer.event": 0,
     "tracer.events": 0,
     "tracer.settings": 0,
     "tracer.tails": 0,
@@ -57,7 +58,7 @@ FLOORS = {
 ORDERED = {
     ("tracer.derived", "tracer.frame"),
     ("tracer.events", "tracer.derived"),
-    ("tracer.events", "tracer.frame"),
+    ("tracer.events", "tracer.event"),
     ("tracer.warp", "tracer.frame"),
 }
 

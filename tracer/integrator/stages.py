@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES, Sparse
+from tracer.event import Sparse
+from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES
 from tracer.frame import cos_theta, put
 from tracer.integrator.steps import RIGHT, any_channel
 from tracer.settings import TracerError

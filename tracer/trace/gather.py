@@ -6,7 +6,8 @@ import numpy as np
 
 from tracer.engine import waves
 from tracer.engine.memory import keep_freed
-from tracer.events import CAMERA, END, HIT, KINDS, Event
+from tracer.event import Event
+from tracer.events import CAMERA, END, HIT, KINDS
 from tracer.integrator.steps import RIGHT
 from tracer.integrator.wave import Wave
 from tracer.recorder import left_out

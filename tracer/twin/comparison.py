@@ -21,7 +21,7 @@ _LOUD = ("bug",)  # settings that are to differ
 class Number(NamedTuple):
     """A field of an event that differs, with both values."""
 
-    field: Any  # events.Field
+    field: Any  # event.Field
     values: tuple
 
 

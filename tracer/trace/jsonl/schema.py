@@ -1,6 +1,7 @@
 """What a line of a log may hold, made from the one schema of events, and the page that says so."""
 
-from tracer.events import BOUNCE, CAMERA, END, ESCAPE, HIT, KINDS, LIGHT, ROULETTE, Field
+from tracer.event import Field
+from tracer.events import BOUNCE, CAMERA, END, ESCAPE, HIT, KINDS, LIGHT, ROULETTE
 from tracer.settings import Settings
 
 VERSION = 1
