@@ -1,7 +1,7 @@
 """Logs of other tracers: JSON Lines, one call of a recursive function or one event a line.
 
-`schema` says what a line may hold, `lines` reads it, `conventions` turns it into castray's own, `calls` and
-`told` make events of calls; `castray.h` writes such a log from C++.
+`schema` says what a line may hold, `lines` reads it into `content`, `conventions` turns it into castray's
+own, `calls` and `told` make events of calls; `castray.h` writes such a log from C++.
 """
 
 from pathlib import Path

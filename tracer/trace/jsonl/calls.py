@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.trace.jsonl.lines import Columns
+from tracer.trace.jsonl.content import Columns
 
 
 @dataclass

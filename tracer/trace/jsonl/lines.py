@@ -1,73 +1,20 @@
 """Lines of a log become columns: bounded memory whatever the file holds, and every mistake has its place."""
 
 import gc
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
 from tracer.trace.jsonl import header, plain
+from tracer.trace.jsonl.content import Columns, Read
+from tracer.trace.jsonl.lawful import WHOLE, Lawful
 from tracer.trace.jsonl.schema import call_fields, event_fields
-from tracer.trace.jsonl.spelling import decoded, number, plain_numbers, short
+from tracer.trace.jsonl.spelling import decoded, plain_numbers
 
 LONGEST = 1 << 20  # bytes of a line
 CHUNK = 1 << 12  # lines that are kept as objects at once
-SHOWN = 20  # mistakes that are told one by one
 _KIND = {kind.name: kind for kind in KINDS}
-_WHOLE = ("whole", "pixel", "index", "shape", "bsdf", "light", "choice")
-_TABLES = ("shape", "bsdf", "light")
-_MOST_WHOLE = 2**53
-
-
-@dataclass(frozen=True)
-class Mistake:
-    """What is wrong with a line, and with which field of it ("" for the whole)."""
-
-    line: int
-    field: str
-    what: str
-
-    def __str__(self):
-        return f"line {self.line}: {self.field}{': ' if self.field else ''}{self.what}"
-
-
-@dataclass
-class Columns:
-    """All lines of one sort. values: name -> (..., N), NaN where not given; given: name -> (N,)."""
-
-    line: np.ndarray
-    values: dict
-    given: dict
-
-    @property
-    def size(self):
-        """Number of lines."""
-        return self.line.size
-
-    def take(self, rows):
-        """Some of the lines; this one's columns are given up one by one, to hold nothing twice."""
-        values = {name: self.values.pop(name)[..., rows] for name in list(self.values)}
-        return Columns(self.line[rows], values, {name: mask[rows] for name, mask in self.given.items()})
-
-
-@dataclass
-class Read:
-    """What a file holds. columns: name of a kind, or None for calls -> Columns."""
-
-    header: header.Header
-    columns: dict = field(default_factory=dict)
-    mistakes: list = field(default_factory=list)
-    mistaken: int = 0  # all of them
-    unknown: dict = field(default_factory=dict)  # fields that the format does not have -> first line
-    lines: int = 0
-    cut: bool = False  # whether the last line ends in its middle
-
-    def tell(self, line, name, what):
-        """Note a mistake."""
-        self.mistaken += 1
-        if len(self.mistakes) < SHOWN:
-            self.mistakes.append(Mistake(line, name, what))
 
 
 def read(path, tables=None):
@@ -132,7 +79,7 @@ class Gathering:
     """Gathers lines with the same fields and makes blocks of columns of them, a chunk at a time."""
 
     def __init__(self, found, tables):
-        self.found, self.tables = found, tables
+        self.found, self.lawful = found, Lawful(tables, found.header.options)
         self.dtype = np.float32 if found.header.bits == 32 else np.float64
         self.groups, self.waiting = {}, 0
         self.blocks = {}  # kind -> [(lines, values)]
@@ -213,7 +160,7 @@ class Gathering:
             array = np.zeros((*f.shape, len(column)))
             for k, value in enumerate(column):
                 try:
-                    array[..., k] = self._value(f, value)
+                    array[..., k] = self.lawful.value(f, value)
                 except ValueError as error:
                     fine[k] = False
                     self.found.tell(int(lines[k]), name, str(error))
@@ -224,8 +171,12 @@ class Gathering:
         known, values, good = self.fields[kind], {}, np.ones(lines.size, bool) & fine
         for name, array in columns.items():
             f = known[name]
-            good &= self._in_range(f, name, array, lines)
-            dtype = np.int64 if f.domain in _WHOLE else np.uint8 if f.domain == "flag" else self.dtype
+            if wrong := self.lawful.outside(f, name, array):
+                bad, what = wrong
+                good &= ~bad
+                for k in np.flatnonzero(bad):
+                    self.found.tell(int(lines[k]), name, f"{array[k]:.15g} {what}")
+            dtype = np.int64 if f.domain in WHOLE else np.uint8 if f.domain == "flag" else self.dtype
             if dtype is not self.dtype:
                 array = np.where(good, array, 0)
             with np.errstate(over="ignore", invalid="ignore"):
@@ -234,49 +185,6 @@ class Gathering:
             lines, values = lines[good], {name: array[..., good] for name, array in values.items()}
         if lines.size and values:
             self.blocks.setdefault(kind, []).append((lines, values))
-
-    def _in_range(self, f, name, array, lines):
-        most = {"pixel": 65534, "whole": _MOST_WHOLE, "index": _MOST_WHOLE}.get(f.domain)
-        if f.domain in _TABLES and f.domain in self.tables:
-            most = len(self.tables[f.domain]) - 1
-        if name.endswith("primitive") and "primitive" in self.tables:
-            most = self.tables["primitive"] - 1
-        if f.domain == "choice":
-            most = len(f.choices) - 1
-        size = {"x": "width", "y": "height"}.get(name) if f.domain == "pixel" else None
-        if size and size in self.found.header.options:
-            most = self.found.header.options[size] - 1
-        if f.domain == "flag":
-            bad = (array != 0) & (array != 1)
-        elif f.domain not in _WHOLE:
-            return np.ones(lines.size, bool)
-        else:
-            least = -1 if f.domain in ("index", *_TABLES) else 0
-            bad = ~((array >= least) & (array <= (most if most is not None else _MOST_WHOLE)))
-            bad |= array != np.floor(array)
-        for k in np.flatnonzero(bad):
-            what = (
-                "is neither true nor false"
-                if f.domain == "flag"
-                else f"is not a whole number from {least} to {most}"
-            )
-            self.found.tell(int(lines[k]), name, f"{array[k]:.15g} {what}")
-        return ~bad
-
-    def _value(self, f, value):
-        """What a value of any spelling is as numbers; ValueError saying what is wrong."""
-        if f.shape:
-            if not isinstance(value, (list, tuple)) or len(value) != f.shape[0]:
-                raise ValueError(f"{short(value)} is not a list of {f.shape[0]} numbers")
-            return [number(v) for v in value]
-        names = self.tables.get(f.domain, ()) if f.domain in _TABLES else f.choices
-        if isinstance(value, str) and (names or f.domain in _TABLES):
-            if value not in names:
-                raise ValueError(f"{short(value)} is not known; choose one of {', '.join(names[:12])}")
-            return names.index(value)
-        if value is None and f.domain in _TABLES:
-            return -1
-        return number(value)
 
     def finish(self):
         """Name of a kind, or None -> Columns."""

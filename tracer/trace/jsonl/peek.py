@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.trace.jsonl import geometry
-from tracer.trace.jsonl.lines import Columns
+from tracer.trace.jsonl.content import Columns
 from tracer.trace.jsonl.places import Places
 
 

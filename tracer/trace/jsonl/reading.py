@@ -8,6 +8,7 @@ from tracer.events import KINDS
 from tracer.settings import TracerError
 from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, places, told
 from tracer.trace.jsonl.compact import compact
+from tracer.trace.jsonl.content import Read
 from tracer.trace.trace import Table, Trace
 
 _UNIFORM = 0.5 / np.pi
@@ -18,7 +19,7 @@ class Log:
     """What a file holds. trace: a Trace, None if no scene was given; notes: what was found out beside the
     mistakes, in words; read_off: settings that were not declared but could be told from the numbers."""
 
-    read: lines.Read
+    read: Read
     trace: Trace | None
     notes: tuple
     read_off: dict
