@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.bsdf.table import BsdfTable
-from tracer.frame import Frame, dot, length, put
+from tracer.frame import Frame, dot
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
@@ -15,8 +15,9 @@ from tracer.settings import TracerError
 from tracer.shape import end, start
 from tracer.shape.arrange import arrange
 from tracer.shape.chart import Charts
-from tracer.shape.rays import Rays, error_bound, leave
-from tracer.shape.sphere import Sphere
+from tracer.shape.meeting import Meeting
+from tracer.shape.rays import Rays, leave
+from tracer.shape.surfaces import Surfaces
 
 
 class Hit(NamedTuple):
@@ -63,7 +64,7 @@ class Scene:
         self.bsdf = BsdfTable(tuple(definition.bsdfs.values()), dtype, hemisphere, painted)
         media = definition.media
         self.media = media and media.of_primitives(self.shape_of, dtype)  # None: light loses nothing anywhere
-        self._prepare_planes()
+        self._prepare_surfaces()
         self._prepare_lights()
         self._others = {}
 
@@ -86,29 +87,9 @@ class Scene:
     def _refusal(self):
         return refusal(self.definition, self.dtype)
 
-    def _prepare_planes(self):
-        planes = [shape.planes() for shape in self.shapes]
-        self._n = np.concatenate([n for n, _ in planes], axis=1).astype(self.dtype)
-        self._c = np.concatenate([c for _, c in planes]).astype(self.dtype)
+    def _prepare_surfaces(self):
         self._faces = start.Faces.of(self.shapes, self.dtype)
-        # What enters a primitive's error bound beside the point itself.
-        self._reach = self._faces.reach.astype(self.dtype)
-        self._spheres = []
-        self._meshes = [
-            (first, shape)
-            for first, shape in zip(self.first, self.shapes, strict=True)
-            if hasattr(shape, "put_inside")
-        ]
-        self._smooth = [(first, shape) for first, shape in self._meshes if shape.normals is not None]
-        for first, shape in zip(self.first, self.shapes, strict=True):
-            if isinstance(shape, Sphere):
-                center, side = (
-                    shape.center.astype(self.dtype).reshape(3, 1),
-                    -1.0 if shape.flip_normals else 1.0,
-                )
-                self._spheres.append((first, center, self.dtype(shape.radius), self.dtype(side)))
-                self._reach[first] = np.abs(shape.center).sum() + shape.radius
-        self._reach = np.append(self._reach, self.dtype(0.0))  # of primitive -1: a light that is no shape
+        self._surfaces = Surfaces(self.shapes, self.first, self._faces, self.dtype)
         extent = max(
             np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
         )
@@ -147,55 +128,25 @@ class Scene:
             for light, k in enumerate(shining):
                 radiance[:, light] = self.definition.surfaces[k].radiance
             self.lights = Lights(faces, radiance, others, ball, self.dtype, self.light_sampling)
-        self._beside = end.beside(self._faces, self.shape_of, shining)
+        beside = end.beside(self._faces, self.shape_of, shining)
+        self._meeting = Meeting(self.arrangement, self._faces, beside, self.dtype)
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).
 
         Returns (t (N,), inf where nothing is hit; primitive (N,), -1 there).
         """
-        return self._closest(Rays.towards(o, d, source, touched=[]))
+        return self._meeting.closest(Rays.towards(o, d, source, touched=[]))
 
     def started(self, o, d, source):
         """Where rays that `intersect` is asked of start in the end, (3, N): off other faces they touch."""
-        rays, o = Rays.towards(o, d, source, touched=[]), o.copy()
-        self._nearest(rays)
-        if rays.touched:
-            lanes, moved, _ = start.moved(self._faces, rays)
-            put(o, lanes, moved.o)
-        return o
-
-    def _closest(self, rays, distance=None):
-        """As intersect; distance: (N,) to the point that rays are aimed at, if they are."""
-        t, primitive = self._nearest(rays)
-        if rays.touched:
-            lanes, moved, _ = start.moved(self._faces, rays, distance)
-            if lanes.size:
-                t[lanes], primitive[lanes] = self._nearest(moved)
-        if not np.isfinite(rays.o.sum() + rays.d.sum()):  # slabs alone would drop the NaN and hit
-            none = ~np.isfinite(rays.o + rays.d).all(axis=0)
-            t[none], primitive[none] = np.inf, -1
-        return t, primitive
-
-    def _nearest(self, rays):
-        t = np.full(rays.source.shape, np.inf, self.dtype)
-        primitive = np.full(rays.source.shape, -1, np.int32)
-        for kernel in self.arrangement.closest:
-            t_k, met = kernel.closest(rays, t)
-            nearer = t_k < t
-            if callable(met):
-                lanes = np.flatnonzero(nearer)
-                primitive[lanes] = met(lanes)
-            else:
-                np.copyto(primitive, met, where=nearer)
-            t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
-        return t, primitive
+        return self._meeting.started(o, d, source)
 
     def hit(self, o, d, t, primitive):
         """Everything about the points o + t d, all of which lie on a primitive."""
-        p, ng, bound = self._on_surface(o + t * d, primitive)
+        p, ng, bound = self._surfaces.project(o + t * d, primitive)
         wo = -d
-        n = self._shading_normals(p, ng, wo, primitive) if self._smooth else ng
+        n = self._surfaces.shading_normals(p, ng, wo, primitive)
         bsdf, light = self.bsdf_of.take(primitive), self.light_of.take(primitive)
         texture = self.painted(p, primitive)
         return Hit(p, t, primitive, ng, n, wo, dot(ng, wo) > 0.0, bsdf, light, bound, texture)
@@ -203,39 +154,11 @@ class Scene:
     @property
     def has_smooth_normals(self):
         """Whether any shape is shaded by other normals than its own."""
-        return bool(self._smooth)
-
-    def _shading_normals(self, p, ng, wo, primitive):
-        """Interpolated normals where a shape has them; ng where they are none or would turn the side seen."""
-        n = ng.copy()
-        for first, shape in self._smooth:
-            lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            smooth = shape.shading_normals(p.take(lanes, axis=1), primitive[lanes] - first)
-            seen = wo.take(lanes, axis=1)
-            good = np.flatnonzero(
-                dot(smooth, seen) * dot(ng.take(lanes, axis=1), seen) > 0.0
-            )  # not so for NaN
-            put(n, lanes[good], smooth.take(good, axis=1))
-        return n
-
-    def _on_surface(self, p, primitive):
-        """Points put onto their surfaces, the normals there, and the bound on what is left."""
-        n, c = self._n.take(primitive, axis=1), self._c.take(primitive)
-        p = p - (dot(n, p) - c) * n
-        for first, shape in self._meshes:
-            lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            put(p, lanes, shape.put_inside(p.take(lanes, axis=1), primitive[lanes] - first))
-        for first, center, radius, side in self._spheres:
-            lanes = np.flatnonzero(primitive == first)
-            out = p.take(lanes, axis=1) - center
-            out = out / length(out)
-            put(p, lanes, center + radius * out)
-            put(n, lanes, side * out)
-        return p, n, self.bound(p, n, primitive)
+        return self._surfaces.smooth
 
     def bound(self, p, n, primitive):
         """How far points (3, N) may lie off their primitives, along normals n (3, N), in metres, (N,)."""
-        return error_bound(p, n, self._reach.take(primitive))
+        return self._surfaces.bound(p, n, primitive)
 
     def spawn(self, hit, wi):
         """Where a ray that leaves a hit along wi (3, N) starts, (3, N)."""
@@ -269,18 +192,8 @@ class Scene:
         rays, distance, hidden = self._between(
             hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
-        blocked = self._blocked(rays, distance)
-        if rays.touched:
-            lanes, moved, distance = start.moved(self._faces, rays, distance)
-            if lanes.size:
-                blocked[lanes] = self._blocked(moved, distance)
+        blocked = self._meeting.blocked(rays, distance)
         return blocked if hidden is False else blocked | hidden
-
-    def _blocked(self, rays, distance):
-        blocked = np.zeros(distance.shape, bool)
-        for blocks in self.arrangement.blocking:
-            blocked |= blocks(rays, distance)
-        return blocked
 
     def blocker(self, vertex, event):
         """First shape (N,) between the hits and light points of recorded events, -1 for none, and its
@@ -289,7 +202,7 @@ class Scene:
             *(vertex[name] for name in ("p", "ng", "primitive")),
             *(event[name] for name in ("q", "nq", "primitive", "wi")),
         )
-        t, primitive = self._closest(rays, distance)
+        t, primitive = self._meeting.closest(rays, distance)
         t, primitive = np.where(hidden, 0.0, t), np.where(hidden, rays.source, primitive)
         could_shine = (event["f"].max(axis=0) > 0.0) & (event["Le"].max(axis=0) > 0.0)
         blocked = (t < distance) & (primitive >= 0) & could_shine & ~event["visible"]
@@ -298,14 +211,8 @@ class Scene:
     def _between(self, p, n, source, q, nq, target, wi):
         """Rays from p to q, both moved off their surfaces towards each other, their lengths (N,), and whether
         the face they start on hides an end that had to be moved, (N,)."""
-        hidden = False
         o, goal = leave(p, n, self.bound(p, n, source), wi), leave(q, nq, self.bound(q, nq, target), -wi)
-        if self._beside:
-            end.clear_ends(self._faces, self._beside, goal, target)
-            hidden = dot(n, goal - o) * dot(n, wi) < 0.0
-        gap = goal - o
-        distance = length(gap)
-        return Rays.towards(o, gap / distance, source, target, []), distance, hidden
+        return self._meeting.between(o, goal, n, source, target, wi)
 
     def frame(self, n, p, primitive):
         """The local frames at points (3, N) with shading normals n: the surface's u runs along s where the

@@ -48,7 +48,7 @@ def seen(name, place, dtype, inside, n=8000):
         at = np.stack((np.ones(walls.size), np.full(walls.size, 0.1), rng.uniform(-0.5, 0.5, walls.size)))
         q = (turn[:3, :3] @ at + turn[:3, 3:]).astype(dtype)
         q += rng.integers(-4, 5, q.shape).astype(dtype) * np.spacing(np.abs(q))
-        q, nq, _ = scene._on_surface(q, lamp)
+        q, nq, _ = scene._surfaces.project(q, lamp)
         gap = q - hit.p
         distance = np.sqrt((gap * gap).sum(axis=0))
         wi, ones = gap / distance, np.ones(walls.size, dtype)
