@@ -296,7 +296,7 @@ SPELLED = (
 
 
 def test_lines_read_together_say_what_each_says_alone(written, cornell, monkeypatch):
-    monkeypatch.setattr(reading.lines, "SHOWN", 1 << 30)
+    monkeypatch.setattr("tracer.trace.jsonl.content.SHOWN", 1 << 30)
     rng = np.random.default_rng(3)
     lines = []
     for k in range(20):
