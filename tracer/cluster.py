@@ -7,6 +7,7 @@ of this machine, that is said once, since the picture is then not promised bit f
 import asyncio
 import logging
 import pickle
+import time
 import warnings
 from concurrent.futures import BrokenExecutor, CancelledError, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -15,7 +16,11 @@ from tracer.engine.many import ClusterWarning, Lost
 from tracer.settings import TracerError
 from tracer.trace.fingerprint import differences, fingerprint
 
-PATIENCE = 5.0  # seconds to wait for a scheduler, and for its first worker
+PATIENCE = (
+    5.0  # seconds to wait for a scheduler, for its first worker, and until it is said that all are gone
+)
+ANSWER = 2.0  # seconds to wait for a scheduler that has answered before
+LONGEST = 600.0  # seconds to wait for a worker to come back
 
 
 class Cluster:
@@ -23,13 +28,17 @@ class Cluster:
 
     processes: how many tasks it does at once. place: puts a job where all its processes find it, once,
     instead of sending it with each task; gives what is sent in its place. name: what a message calls it.
+    working: tells whether there is any worker now; without it there is taken to be one.
     """
 
-    def __init__(self, executor, processes=1, place=lambda job: job, name="the cluster"):
+    def __init__(
+        self, executor, processes=1, place=lambda job: job, name="the cluster", working=lambda: True
+    ):
         self.processes, self.place, self.name = max(processes, 1), place, name
         self.lost = False
-        self._executor = executor
+        self._executor, self._working = executor, working
         self._strangers = set()
+        self._seen, self._told = time.monotonic(), False
 
     def submit(self, job, task):
         """The Future of a task."""
@@ -50,6 +59,24 @@ class Cluster:
                 stacklevel=2,
             )
         return result
+
+    def look(self, moving):
+        """While results are waited for: a warning where there has been no worker for PATIENCE seconds, Lost
+        where there has been none for LONGEST. moving: whether a result has just come."""
+        now = time.monotonic()
+        if moving or self._working():
+            self._seen, self._told = now, False
+        elif now - self._seen > LONGEST:
+            self.lost = True
+            raise Lost(f"cluster: {self.name} has had no worker for {LONGEST:g} seconds")
+        elif now - self._seen > PATIENCE and not self._told:
+            self._told = True
+            warnings.warn(
+                f"cluster: {self.name} has no worker any more; it goes on when one comes back within "
+                f"{LONGEST:g} seconds, and Ctrl-C keeps what is done",
+                ClusterWarning,
+                stacklevel=2,
+            )
 
     @contextmanager
     def _lost_if_broken(self):
@@ -95,6 +122,7 @@ def connected(address, patience=PATIENCE):
                 _processes(client, address, patience),
                 lambda job: client.submit(pickle.loads, pickle.dumps(job), pure=False),
                 f"the scheduler at {address}",
+                lambda: _working(client),
             )
         finally:
             client.close(timeout=patience)
@@ -146,3 +174,11 @@ def _processes(client, address, patience):
             f"dask worker {address} --nthreads 1 --nworkers -1"
         ) from None
     return sum(client.nthreads().values())
+
+
+def _working(client):
+    """Whether there is any worker, or no saying: of a scheduler that is lost the tasks tell."""
+    try:
+        return bool(client.sync(client.scheduler.ncores, callback_timeout=ANSWER))
+    except (OSError, TimeoutError):
+        return True

@@ -1,6 +1,7 @@
 """A picture by any Executor: the same bits whoever does which task when, and what is done is never lost."""
 
 import threading
+import time
 import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 
@@ -131,6 +132,83 @@ def test_a_lost_cluster_leaves_whole_parts_of_a_recording(scene, tmp_path):
     assert 0 < len(missing) < folder.opened(tmp_path / "rec").parts
     local = tracer.render(scene, SETTINGS)
     same(local, tracer.record(scene, SETTINGS, tmp_path / "rec", cluster=threads(2)))
+
+
+class Stuck(ThreadPoolExecutor):
+    """Does one task, by its number in the order of asking, only once it is let go."""
+
+    def __init__(self, number):
+        super().__init__(4)
+        self.asked, self.gate, self._number = 0, threading.Event(), number
+
+    def submit(self, function, *words):
+        self.asked += 1
+        if self.asked == self._number:
+            return super().submit(lambda: self.gate.wait(30.0) and function(*words))
+        return super().submit(function, *words)
+
+
+def test_behind_a_slow_worker_no_more_is_asked_for_than_a_window_of_tasks(monkeypatch):
+    monkeypatch.setattr(many, "LOOK", 0.01)
+    slow, looked = Stuck(1), []
+
+    def working():  # asked where nothing has come for a while
+        looked.append(slow.asked)
+        if len(looked) == 20:
+            slow.gate.set()
+        return True
+
+    tasks = list(range(many.AHEAD * 10))
+    assert list(many.traced(int, tasks, cluster.Cluster(slow, 2, working=working))) == tasks
+    assert max(looked[:20]) == many.AHEAD * 2
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    monkeypatch.setattr(many, "LOOK", 0.01)
+    monkeypatch.setattr(cluster, "PATIENCE", 0.05)
+
+
+def test_where_all_workers_are_gone_that_is_said_and_it_goes_on_with_the_next(scene, impatient):
+    alone, counted = Stuck(2), []
+
+    def working():
+        counted.append(len(counted) >= 30)
+        if counted[-1]:
+            alone.gate.set()
+        return counted[-1]
+
+    there = cluster.Cluster(alone, 1, name="the cluster of the test", working=working)
+    with pytest.warns(many.ClusterWarning, match="the cluster of the test has no worker any more"):
+        picture = tracer.render(scene, SETTINGS, cluster=there)
+    assert any(counted)
+    same(tracer.render(scene, SETTINGS), picture)
+
+
+def test_that_there_is_no_worker_is_said_once_until_there_is_one_again(impatient):
+    there = cluster.Cluster(None, working=lambda: False)
+    with pytest.warns(many.ClusterWarning) as said:
+        for moving in (*[False] * 10, True, *[False] * 10):
+            there.look(moving)
+            time.sleep(0.02)
+    assert len(said) == 2
+
+
+def test_where_no_worker_comes_back_what_is_done_is_kept_and_another_goes_on(scene, impatient, monkeypatch):
+    monkeypatch.setattr(cluster, "LONGEST", 0.2)
+    alone, so_far, done = Stuck(5), SoFar.begin(SETTINGS), []
+    there = cluster.Cluster(alone, 1, working=lambda: len(done) < 4)
+    with pytest.warns(many.ClusterWarning) as said:
+        stopped = tracer.render(
+            scene, SETTINGS, lambda *paths: done.append(paths), cluster=there, so_far=so_far
+        )
+    alone.gate.set()
+    assert "has no worker any more" in str(said[0].message)
+    assert "has had no worker for 0.2 seconds" in str(said[-1].message)
+    assert there.lost
+    assert not stopped.complete
+    assert stopped.samples.any()
+    same(tracer.render(scene, SETTINGS), tracer.render(scene, SETTINGS, cluster=threads(2), so_far=so_far))
 
 
 def test_a_worker_of_another_kind_is_told_once(scene, monkeypatch):

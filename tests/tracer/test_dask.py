@@ -5,6 +5,7 @@ import os
 import random
 import subprocess
 import sys
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -40,12 +41,12 @@ def local():
     return scene, tracer.render(scene, SETTINGS)
 
 
-def check(machines, local, progress=None, workers=None):
-    """The cluster's picture is the local one."""
+def check(machines, local, progress=None, workers=None, processes=8):
+    """The cluster's picture is the local one. processes: more than there are, for more and smaller tasks."""
     scene, picture = local
     with cluster.connected(machines.address) as there:
         assert workers in (None, there.processes)
-        there.processes = 8  # more and smaller tasks than so few workers would get
+        there.processes = processes
         other = tracer.render(scene, SETTINGS, progress, cluster=there)
     for what in ("rgb", "variance", "samples", "rays", "dropped"):
         assert np.asarray(getattr(picture, what)).tobytes() == np.asarray(getattr(other, what)).tobytes()
@@ -87,6 +88,29 @@ def test_a_worker_killed_at_any_moment_changes_nothing(machines, local, suite_se
 
     check(machines, local, kill)
     assert len(seen) > moment
+
+
+def test_where_all_workers_die_that_is_said_and_the_next_one_goes_on(machines, local, monkeypatch):
+    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+    seen, said = [], []
+
+    def kill(done, total):
+        seen.append(done)
+        if len(seen) == 3:
+            while machines.workers:
+                machines.workers[0].kill()
+                machines.workers.pop(0).wait()
+
+    def start(message, *_):  # once it is said, not before
+        said.append(str(message))
+        machines.workers += [machines.start()]
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        warnings.showwarning = start
+        check(machines, local, kill, processes=1)  # so that not all is done when they die
+    (line,) = said
+    assert f"the scheduler at {machines.address} has no worker any more" in line
 
 
 def test_the_command_records_by_the_workers_and_survives_the_scheduler(machines, tmp_path):

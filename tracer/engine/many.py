@@ -14,7 +14,9 @@ from tracer.engine import parts, waves
 MOST_PATHS = 1 << 23  # of a task: seconds of work, so that one scheduler has 1000 processes at work
 TASKS_EACH = 16  # that a process gets at least, so that they end together
 AT_ONCE = 3  # tasks under way for each process: one being done, the others on their way
-LOOK = 1.0  # seconds after which Ctrl-C is heard at the latest
+AHEAD = 12  # tasks for each process that may be done before an earlier one is: a slow worker's results are
+# waited for, and those of the others take memory meanwhile
+LOOK = 1.0  # seconds after which Ctrl-C is heard at the latest, and workers are counted where nothing comes
 
 
 class Lost(Exception):
@@ -34,16 +36,24 @@ def left(settings, processes, sheet):
 
 
 def traced(job, tasks, cluster):
-    """Results of the tasks, in their order. cluster: a tracer.cluster.Cluster. Raises Lost."""
+    """Results of the tasks, in their order. cluster: a tracer.cluster.Cluster. Raises Lost.
+
+    No more than AHEAD x processes of them are asked for or held back at a time.
+    """
     place, tasks = cluster.place(job), enumerate(tasks)
     asked, done, number = {}, {}, 0
+    cluster.look(moving=True)
     try:
         while True:
-            for k, task in islice(tasks, AT_ONCE * cluster.processes - len(asked)):
+            free = AT_ONCE * cluster.processes - len(asked)
+            near = AHEAD * cluster.processes - len(asked) - len(done)
+            for k, task in islice(tasks, min(free, near)):
                 asked[cluster.submit(place, task)] = k
             if not asked:
                 return
-            for future in wait(asked, LOOK, FIRST_COMPLETED).done:
+            ready = wait(asked, LOOK, FIRST_COMPLETED).done
+            cluster.look(moving=bool(ready))
+            for future in ready:
                 done[asked.pop(future)] = cluster.result(future)
             while number in done:
                 yield done.pop(number)
