@@ -4,24 +4,25 @@ import numpy as np
 
 from viewer import solids
 from viewer.numerals import short
-from viewer.surfaces import VIEW_ANGLE
+from viewer.surfaces import COLOURS as PATHS
+from viewer.surfaces import VIEW_ANGLE, rgb
 from viewer.traces import LONG, NAMES
 from viewer.understanding.draws import OFF, RINGS, SECTORS
 from viewer.understanding.lobes import lobes
 
 # In the order in which they are drawn: what is seen through comes last.
 COLOURS = {
-    "shell": (0.40, 0.45, 0.53),
-    "ng": (0.73, 0.64, 1.0),
-    "h": (1.0, 0.48, 0.82),
-    "tried_bounce": (1.0, 0.62, 0.30),
-    "tried_lit": (1.0, 0.90, 0.45),
-    "tried_blocked": (1.0, 0.48, 0.44),
-    "tried_idle": (0.66, 0.70, 0.76),
-    "lobe_p": (0.37, 0.78, 0.85),
-    "more": (1.0, 0.48, 0.44),
-    "fewer": (0.40, 0.55, 1.0),
-    "lobe_f": (1.0, 0.82, 0.34),
+    "shell": rgb("#667286"),
+    "ng": rgb("#9a62ea"),
+    "h": rgb("#d93678"),
+    "tried_bounce": PATHS["wi"],
+    "tried_lit": PATHS["lit"],
+    "tried_blocked": PATHS["blocked"],
+    "tried_idle": rgb("#a9b2c2"),
+    "lobe_p": rgb("#5fc7d8"),
+    "more": rgb("#ff7a70"),
+    "fewer": rgb("#668cff"),
+    "lobe_f": rgb("#ffd257"),
 }
 OPACITY = {"lobe_f": 0.5, "more": 0.5, "fewer": 0.5}
 LIT = ("lobe_f",)

@@ -29,7 +29,7 @@ FRAME = """
       <li v-if="companions.twin" data-testid="legend-twin"><i class="twin">╍●</i>{{ w.legend_twin }}</li>
       <li v-for="mark in over" :key="mark.kind + mark.text" :data-testid="'legend-' + mark.kind"><i :class="mark.kind"></i>{{ mark.text }}</li>
     </ul>
-    <p v-if="!touched" class="hint" data-testid="hint">{{ w.hint }}</p>
+    <p v-if="!touched && !message" class="hint" data-testid="hint">{{ w.hint }}</p>
   </section>
   <aside class="right">%(right)s
     <div class="tabs" role="tablist" :aria-label="w.tabs">%(tablist)s</div>

@@ -2,7 +2,7 @@
 
 from tracer.settings import TracerError
 
-# (Okabe and Ito), without the yellow that vanishes on white.
+# (Okabe and Ito 2008), without the yellow that vanishes on white.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 GREY = "#666666"
 

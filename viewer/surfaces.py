@@ -9,20 +9,28 @@ VIEW_ANGLE = 30.0
 LAMP = (1.0, 0.97, 0.85)
 FEW = 256  # so many faces are looked at one by one
 DIMMED = 0.62  # surfaces step back, so that the paths stand out
+
+
+def rgb(text):
+    """Red, green and blue from 0 to 1 of #rrggbb."""
+    return tuple(int(text[k : k + 2], 16) / 255 for k in (1, 3, 5))
+
+
+# Those of the page's style sheet where it has them, too.
 COLOURS = {
-    "others": (0.36, 0.40, 0.48),
-    "walked": (1.0, 1.0, 1.0),
-    "ahead": (0.60, 0.66, 0.76),
-    "lit": (1.0, 0.86, 0.35),
-    "blocked": (1.0, 0.42, 0.38),
-    "what_if": (0.89, 0.42, 1.0),
-    "twin": (0.20, 0.85, 0.78),
-    "idle": (0.55, 0.58, 0.64),
-    "here": (1.0, 1.0, 1.0),
-    "n": (0.45, 0.90, 0.53),
-    "wo": (0.40, 0.72, 1.0),
-    "wi": (1.0, 0.62, 0.30),
-    "light": (1.0, 0.90, 0.45),
+    "others": rgb("#667286"),
+    "walked": rgb("#ffffff"),
+    "ahead": rgb("#99a8c2"),
+    "lit": rgb("#ffd92e"),
+    "blocked": rgb("#f0406a"),
+    "what_if": rgb("#e36bff"),
+    "twin": rgb("#33d9c7"),
+    "idle": rgb("#8c94a3"),
+    "here": rgb("#ffffff"),
+    "n": rgb("#8ff5a8"),
+    "wo": rgb("#66b8ff"),
+    "wi": rgb("#f07f2c"),
+    "light": rgb("#ffd92e"),
 }
 
 

@@ -35,6 +35,8 @@ class Strokes:
         for hit, sample in light_samples(path):
             outcome = light_outcome(sample)
             p, q = np.asarray(hit["p"], float), np.asarray(sample["q"], float)
+            if not np.all(np.isfinite([p, q])):  # a log may lack either
+                continue
             if outcome == "lit":
                 parts["lit"] += [solids.rods(p, q, self.thin), solids.balls(q, 3 * self.thin)]
             elif outcome in ("blocked", "denied"):

@@ -95,8 +95,8 @@
       const typed = ref(props.text), open = ref(false);
       let typing = false;  // an answer to what was asked before must not replace what is being typed
       watch(() => props.text, (text) => { if (!typing) typed.value = text; });
-      function send() { typing = false; emit("ask", typed.value); }
-      function take(example) { open.value = false; typed.value = example; send(); }
+      function send() { typing = open.value = false; emit("ask", typed.value); }
+      function take(example) { typed.value = example; send(); }
       const type = (is) => { typing = is; };
       return { typed, open, send, take, type };
     },

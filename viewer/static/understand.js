@@ -2,8 +2,8 @@
 (window.castrayParts ||= []).push((castray) => {
   const { onBeforeUnmount, onMounted, ref, watch } = window.Vue;
   const { fitted } = castray;
-  const COLOURS = { n: "#73e687", ng: "#b9a3ff", wo: "#66b8ff", wi: "#ff9e4d", h: "#ff7ad1", f: "#ffd257", p: "#5fc7d8" };
-  const DOTS = { bounce: "#ff9e4d", lit: "#ffe673", blocked: "#ff7a70", idle: "#a9b2c2" };
+  const COLOURS = { n: "#8ff5a8", ng: "#9a62ea", wo: "#66b8ff", wi: "#f07f2c", h: "#d93678", f: "#ffd257", p: "#5fc7d8" };
+  const DOTS = { bounce: "#f07f2c", lit: "#ffd92e", blocked: "#f0406a", idle: "#a9b2c2" };
 
   // a canvas that is drawn again when it is resized or told something else
   function drawing(paint, told) {
@@ -165,16 +165,16 @@
         const to = scale(g, low, high, 34, width);
         g.fillStyle = "#66b8ff40"; g.fillRect(to(point), 26, to(point + offset) - to(point), 16);
         g.fillStyle = "#e8ebf0"; g.fillRect(to(0) - 1.5, 22, 3, 19);
-        spot(g, to(point), 34, 4, "#73e687", false);
-        spot(g, to(start), 34, 4, "#ff9e4d", false);
-        name(g, "p", to(point) + 4, 14, "#73e687", width);
-        name(g, "o", to(start) - 4, 14, "#ff9e4d", width);
+        spot(g, to(point), 34, 4, "#8ff5a8", false);
+        spot(g, to(start), 34, 4, "#f07f2c", false);
+        name(g, "p", to(point) + 4, 14, "#8ff5a8", width);
+        name(g, "o", to(start) - 4, 14, "#f07f2c", width);
         if (beyond === null) return;
         const most = Math.max(4, Math.abs(beyond) * 1.3), end = scale(g, -most, most, 84, width);
-        g.fillStyle = "#ffe673"; g.fillRect(end(0) - 1.5, 72, 3, 19);
-        spot(g, end(beyond), 84, 4, beyond < 0 ? "#ff7a70" : "#ffe673", false);
-        name(g, "q", end(0) + 5, 70, "#ffe673", width);
-        name(g, "t", end(beyond) + (beyond < 0 ? -10 : 6), 78, "#ff7a70", width);
+        g.fillStyle = "#ffd92e"; g.fillRect(end(0) - 1.5, 72, 3, 19);
+        spot(g, end(beyond), 84, 4, beyond < 0 ? "#ff6b5e" : "#ffd92e", false);
+        name(g, "q", end(0) + 5, 70, "#ffd92e", width);
+        name(g, "t", end(beyond) + (beyond < 0 ? -10 : 6), 78, "#ff6b5e", width);
       }
       return { canvas: drawing(paint, () => props.ruler) };
     },
