@@ -1,7 +1,7 @@
 """How long the viewer takes: to be ready, and from an input to what it changed, drawn; and its memory.
 
 Of a pick and a step that is the 3D view, of a knob the first picture with the new scene, coarse as yet, with
-either engine, of a query the hits. Medians, 95 % points and the slowest of 20 each, written into BENCHMARKS.md.
+either engine, of a query the hits. Medians, 95 % points, the slowest of 20 each, written into BENCHMARKS.md.
 `python tests/bench_viewer.py [--tiny] [--out FILE]`
 """
 
