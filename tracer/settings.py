@@ -11,6 +11,18 @@ class TracerError(ValueError):
     """Bad input: one line that says what, where, and what would do."""
 
 
+def told(value):
+    """A setting's value as one says it."""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    return "none" if value is None else str(value)
+
+
+def both_told(one, other, names):
+    """Of two {name: value} those of some names, as one says them."""
+    return ", ".join(f"{name} {told(one[name])} and {told(other[name])}" for name in names)
+
+
 def option(default, help, choices=None, least=None, most=None):
     """A dataclass field that carries its own explanation and limits."""
     return field(

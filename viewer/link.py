@@ -105,7 +105,8 @@ def _place(words):
     if not named:
         return None
     if "x" not in words or "y" not in words:
-        raise TracerError(f"link: {named[0]} without x and y of the pixel")
+        lacking = " and ".join(k for k in ("x", "y") if k not in words)
+        raise TracerError(f"link: {named[0]} without {lacking} of the pixel")
     place = tuple(_whole(k, words.get(k, "0")) for k in PLACE)
     if min(place) < 0:
         raise TracerError("link: x, y, path and event count from 0")

@@ -189,7 +189,7 @@ class Window:
         for option in fields(Settings):
             value = getattr(s, option.name)
             if option.name not in IN_THE_HEADER_ANYWAY and value != option.default:
-                said.append(f"{option.name} {value}")
+                said.append(f"{self.say.dial(option.name)} {self.say.dialed(value)}")
         return {"scene": self.session.scene.name, "settings": " · ".join(said)}
 
     def move(self, cursor):

@@ -71,7 +71,7 @@ def test_a_recording_from_another_machine_is_compared(box):
     ("words", "said"),
     [
         (("view", "box#x=99&y=0"), "outside the picture"),
-        (("view", "box#y=0"), "without x and y"),
+        (("view", "box#y=0"), "y without x of the pixel"),
         (("view", "box", "--spp", "4"), "has its own settings"),
         (("query", "box", "depth > 0", "--limit", "0"), "limit"),
         (("query", "box"), "give a condition"),

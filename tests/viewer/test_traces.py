@@ -29,6 +29,15 @@ def test_the_way_walked_stands_out_of_what_lies_ahead_and_of_the_other_paths():
     assert walked > 1.3 * ahead and ahead > 1.3 * others
 
 
+def test_a_light_sample_without_its_point_on_the_lamp_is_not_drawn():
+    """As in a log that has what the lamp brings alone."""
+    record = tracer.inspect(SCENE, tracer.Settings(width=24, height=24, spp=4, max_depth=4), 12, 20)
+    path = max(record.paths, key=lambda path: len(light_samples(path)))
+    for _, sample in light_samples(path):
+        sample["q"] = np.full(3, np.nan)
+    assert all(len(cells) == 0 for _, cells in STROKES.path(path).values())
+
+
 @pytest.mark.parametrize("outcome", ["lit", "blocked"])
 def test_a_light_sample_ends_at_the_lamp_or_at_what_is_in_its_way(outcome):
     seen = 0

@@ -1,6 +1,7 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
 import re
+from dataclasses import fields
 from string import Formatter
 
 import numpy as np
@@ -11,6 +12,7 @@ from lessons import glossary
 from lessons.zoo import FAMILIES, ZOO
 from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
+from tracer.settings import Settings
 from viewer.caption import caption, shown, why_dead
 from viewer.cli import main
 from viewer.equation import formulas
@@ -205,6 +207,20 @@ def test_a_caption_has_words_of_one_language_only(pixels, language):
     for scene, _, path in paths(pixels):
         for said in [why_dead(path, scene, say), *(caption(event, scene, say) for event in path.events)]:
             assert not set(re.findall(r"[a-z_]{1,}", re.sub(r"[\d.]+(e[+-]\d+)?", "", said))) - own
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_setting_has_a_name_and_every_choice_of_it_too(language):
+    say = Speaker(language)
+    for field in fields(Settings):
+        if field.name not in ("width", "height"):  # always shown as a size
+            assert f"dial.{field.name}" in say.words
+    said = {say.dialed(value) for value in (True, False, None, "solid_angle", -1)}
+    assert not said & {"True", "False", "None", "solid_angle", "-1"}
+    differ = say.error(
+        "Settings differ: bug E01,D01 and none, jitter on and off, light_sampling area and solid_angle."
+    )
+    assert "E01,D01" in differ and (language == "en") == ("light_sampling" in differ)
 
 
 def test_a_word_that_one_language_lacks_is_seen():

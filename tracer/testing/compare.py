@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from tracer.settings import Settings
+from tracer.settings import Settings, both_told
 from tracer.testing.errorbars import settings_of, why_unknown
 from tracer.testing.errors import Errors, errors
 from tracer.testing.ztest import ALPHA, Comparison, z_test
@@ -80,7 +80,7 @@ def _notes(a, b, names, distance, z, without):
             if k in second and first[k] != second[k] and k not in ("seed", "spp", "replicates")
         ]
         if odd:
-            yield "Settings differ: " + ", ".join(f"{k} {first[k]} and {second[k]}" for k in odd) + "."
+            yield f"Settings differ: {both_told(first, second, odd)}."
         if z is not None and first["seed"] == second["seed"] and not distance.rmse == 0.0:
             yield f"Both have the seed {first['seed']}: their noise is partly the same, and p-values are off."
     if z is not None and z.unknown:

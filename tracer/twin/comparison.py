@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.events import KINDS
-from tracer.settings import TracerError
+from tracer.settings import TracerError, both_told
 from tracer.twin.pairing import check_same_numbers, events_of, paired
 from tracer.twin.parting import KIND, MISSING, Firsts, causal, differing, firsts, uncompared
 from tracer.twin.shares import Share, told
@@ -134,7 +134,7 @@ def _notes(a, b):
     one, other = a.settings.as_dict(), b.settings.as_dict()
     odd = [name for name in one if one[name] != other[name] and name not in _LOUD]
     if odd:
-        yield "Settings differ: " + ", ".join(f"{name} {one[name]} and {other[name]}" for name in odd) + "."
+        yield f"Settings differ: {both_told(one, other, odd)}."
 
 
 @dataclass(frozen=True)

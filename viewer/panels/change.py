@@ -45,11 +45,11 @@ def _shown(knob, say):
 
 def _dial(dial, say):
     name = dial["name"]
-    choices = [{"value": c, "text": c or say("value.none")} for c in dial["choices"]]
+    choices = [{"value": c, "text": say.dialed(c) if c else say("value.none")} for c in dial["choices"]]
     return {
         "key": name,
-        "label": name.replace("_", " "),
-        "title": say.setting(name),
+        "label": say.dial(name),
+        "title": f"--{name.replace('_', '-')}: {say.setting(name)}",
         "value": dial["value"],
         "choices": choices,
         "kind": "choice" if choices else "number" if isinstance(dial["value"], int) else "text",

@@ -27,7 +27,7 @@ TEMPLATE = """
   <table class="data sums" data-testid="compare-pixel"><tbody><tr v-for="row in compare.pixel" :key="row.name"><th scope="row">{{ row.name }}</th>
     <td class="number" :data-testid="'compare-' + row.key" :data-exact="JSON.stringify(row.exact)">{{ row.value }}</td></tr></tbody></table>
   <template v-if="compare.verdict"><p :class="{good: compare.verdict.equal}" data-testid="compare-verdict">{{ compare.verdict.said }}
-    <button class="small" data-testid="compare-worst" @click="trigger('pick', compare.verdict.worst)">{{ w.compare_worst }}</button></p>
+    <button v-if="!compare.verdict.equal" class="small" data-testid="compare-worst" @click="trigger('pick', compare.verdict.worst)">{{ w.compare_worst }}</button></p>
   <details><summary>{{ w.compare_numbers }}</summary><table class="data sums" data-testid="compare-numbers" :data-exact="JSON.stringify(compare.verdict.exact)"><tbody>
     <tr v-for="row in compare.verdict.rows" :key="row.name"><th scope="row">{{ row.name }}</th><td class="number">{{ row.value }}</td></tr></tbody></table>
   <p v-for="note in compare.verdict.notes" :key="note" class="dim">{{ note }}</p></details></template>
@@ -204,7 +204,8 @@ def _paths(session, desk, say):
         }
         for p in found.largest
     ]
-    words = say("compare.differing", differing=found.differing, n=found.pairs)
+    key = "compare.differing" if found.differing else "compare.none_differing"
+    words = say(key, n=found.pairs, **({"differing": found.differing} if found.differing else {}))
     return {"differing": found.differing, "said": words, "rows": rows}
 
 

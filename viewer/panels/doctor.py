@@ -33,7 +33,7 @@ TEMPLATE = """
   <details v-if="doctor.untestable.length" data-testid="doctor-untestable" :data-rules="doctor.untestable.length"><summary>{{ doctor.untestable_head }}</summary>
     <table class="rows"><thead><tr><th scope="col">{{ w.exam_rule }}</th><th scope="col">{{ w.exam_missing }}</th></tr></thead><tbody>
       <tr v-for="r in doctor.untestable" :key="r.rule" :title="r.law"><td>{{ r.title }}</td><td class="dim">{{ r.missing }}</td></tr></tbody></table></details>
-  <section v-if="doctor.picture" class="finding" data-testid="doctor-picture"><div class="between"><p>{{ doctor.picture.head }}</p>
+  <section v-if="doctor.picture" class="finding asked" data-testid="doctor-picture"><div class="between"><p>{{ doctor.picture.head }}</p>
     <button data-testid="doctor-guess" :disabled="doctor.picture.busy" @click="trigger('doctor_guess')"><span v-if="doctor.picture.busy" class="busy" aria-hidden="true"></span>{{ w.exam_guess }}</button></div>
     <p v-if="doctor.picture.error" class="warning" role="alert">{{ doctor.picture.error }}</p>
     <p v-if="doctor.picture.verdict" :class="doctor.picture.good ? 'good' : 'warning'" data-testid="doctor-guessed">{{ doctor.picture.verdict }}</p>

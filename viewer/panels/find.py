@@ -120,7 +120,9 @@ def _error(desk, say):
     """What is wrong with the query, and where."""
     error, text = desk.error, desk.text
     at = getattr(error, "at", None)
-    words = say.error(str(error)) if at is None else say("find.error", at=at + 1, words=error.words)
+    words = (
+        say.error(str(error)) if at is None else say("find.error", at=at + 1, words=say.error(error.words))
+    )
     end = at if at is None else at + max(1, len(_word(text[at:])))
     return {
         "words": words,

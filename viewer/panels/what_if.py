@@ -46,7 +46,7 @@ def show(session, say):
     kind = event.kind.name
     found = {
         "at": f"{session.cursor.x},{session.cursor.y},{session.cursor.path}:",
-        "note": say(f"what_if.at.{kind}" if _choice(session) else "what_if.at.none"),
+        "note": say(f"what_if.at.{_question(session)}"),
         "knobs": _KNOBS[kind](session, say) if _choice(session) else [],
         "supposed": [],
     }
@@ -62,6 +62,13 @@ def _choice(session):
     event, before = session.event, session.path.events[: session.cursor.event]
     there = any(e.kind.name == "hit" for e in before)
     return there and event.kind.name in KINDS and not event.values.get("delta", False)
+
+
+def _question(session):
+    """What is asked of the event: by its kind, or why nothing can be."""
+    if _choice(session):
+        return session.event.kind.name
+    return "dirac" if session.event.values.get("delta", False) else "none"
 
 
 def _knob(event, part, label, value, low, high, step):

@@ -66,6 +66,16 @@ class Speaker:
 
         return self.optional(f"setting.{name}", Settings.__dataclass_fields__[name].metadata["help"])
 
+    def dial(self, name):
+        """What the page calls a setting."""
+        return self.optional(f"dial.{name}", name)
+
+    def dialed(self, value):
+        """What the page says for a setting's value; a name, such as an integrator's, stays what it is."""
+        from tracer.settings import told
+
+        return self.optional(f"dialed.{told(value)}", told(value))
+
     def error(self, message):
         """An error in this language; in its own words where the table has none for it."""
         return self._translated(message, "error.")
@@ -80,10 +90,18 @@ class Speaker:
                 found = pattern.fullmatch(message)
                 if found:
                     values = found.groupdict()
+                    if "which" in values:  # settings and their two values
+                        values["which"] = self.listed(*map(self._differing, values["which"].split(", ")))
                     if "kind" in values:
                         values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
                     return self(key, **values)
         return message
+
+    def _differing(self, setting):
+        """A setting of which two values are told, such as "jitter on and off"."""
+        name, _, both = setting.partition(" ")
+        one, _, other = both.partition(" and ")
+        return self("dial.differs", name=self.dial(name), one=self.dialed(one), other=self.dialed(other))
 
     def sentences(self, *said):
         """Sentences one after another; empty ones are left out."""

@@ -30,7 +30,7 @@ WORDS = {
         "check.hypotheses": "看起来不对",
         "check.failed": "无法检验",
         "check.skipped": "跳过",
-        "check.unknown": "不是正确的图像，而错误大全中没有吻合的错误",
+        "check.unknown": "不是正确的图像，而错误动物园中没有吻合的错误",
         "check.hypothesis": "由图像得出的假设",
         "check.hypothesis_fits": "由图像得出的假设：能解释偏差的 {explains:.0%}",
         "check.column_name": "名称",

@@ -35,7 +35,7 @@ WORDS = {
         "exam.untestable": "此处无法检验（{n}）",
         "exam.map": "违反 {rule} 的事件数",
         "exam.picture": "{name} 符合什么？",
-        "ui.exam_guess": "与错误大全比较",
+        "ui.exam_guess": "与错误动物园比较",
         "ui.tab_doctor": "诊断",
         "ui.exam_examine": "检验",
         "ui.exam_findings": "诊断结果，首要原因在前",

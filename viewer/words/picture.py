@@ -50,7 +50,7 @@ WORDS = {
         "pic.shape_middle": "它的形状与场景的图像不同：只比较中间部分。",
         "pic.right": "它与正确的图像吻合。",
         "pic.right_but": "这样的图像看不出来的错误无法排除：要弄清楚，请记录路径。",
-        "pic.nothing": "它不正确，而错误大全中没有吻合的错误。",
+        "pic.nothing": "它不正确，而错误动物园中没有吻合的错误。",
         "pic.nearest": "最接近的是 {bugs}：它能解释偏差的 {explains:.0%}。",
         "pic.log_any": "请尽量记录数值，交给 castray 检验：castray log --schema 说明格式。",
         "pic.hypotheses": "这些只是由图像得出的假设，不是诊断结果：只有记录下来的路径才能证明错误。",
@@ -69,6 +69,6 @@ WORDS = {
         "pic.object": "物体",
         "pic.yours": "你的 / 正确的",
         "pic.predicted": "{bugs} 应有",
-        "pic.rendering": "正在渲染错误大全中的错误",
+        "pic.rendering": "正在渲染错误动物园中的错误",
     },
 }
