@@ -67,6 +67,11 @@ def test_while_nothing_is_heard_something_else_is_done_once(server, monkeypatch)
     assert done == [0] and picture.engine == "gl"
 
 
+def test_whoever_waits_for_another_picture_does_something_else_meanwhile(server):
+    server._free.acquire()
+    assert there(server, meanwhile=server._free.release).engine == "gl"
+
+
 def test_a_process_that_is_lost_says_so_once_and_for_all():
     suite.gl()
     lost = Server()

@@ -47,9 +47,9 @@ class Server:
 
     def render(self, scene, settings, steps, progress, meanwhile=None):
         """The Picture of engine.render; progress may raise to stop it. meanwhile: called where nothing is
-        heard of it for a moment, since the child starts or its driver compiles. Raises TracerError where gl
-        cannot do it."""
-        with self._free:
+        heard of it for a moment, since the child starts, is at another one, or its driver compiles. Raises
+        TracerError where gl cannot do it."""
+        with self._lent(meanwhile) as meanwhile:
             progress(0, settings.spp)  # whoever had the child may have had it for long
             if not (self._greeted or self._refused):
                 meanwhile = self._patient(meanwhile)
@@ -67,6 +67,18 @@ class Server:
         self._line.close()
         self._child.terminate()
         self._child.join()
+
+    @contextmanager
+    def _lent(self, meanwhile):
+        """The child is the caller's. Gives what is left to be called meanwhile."""
+        if not self._free.acquire(timeout=PATIENCE if meanwhile else -1):
+            meanwhile()
+            meanwhile = None
+            self._free.acquire()
+        try:
+            yield meanwhile
+        finally:
+            self._free.release()
 
     def _patient(self, meanwhile):
         """Call it if nothing is heard for a moment; what is left to be called."""
