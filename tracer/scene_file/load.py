@@ -105,14 +105,10 @@ def load_dict(description, name="scene", folder="."):
     surfaces = tuple(
         _surface(Words(named[key], key), bsdfs) for key, kind in kinds.items() if kind == "shape"
     )
-    sensors = [key for key, kind in kinds.items() if kind == "sensor"]
-    if len(sensors) != 1:
-        raise TracerError(
-            f'a scene has one sensor (type "perspective" or "thinlens"); here are {len(sensors)}'
-        )
+    key = _only_sensor(kinds)
     if not surfaces:
         raise TracerError(f"no shapes; add one of type {listed(objects.SHAPES)}")
-    camera, width, height = objects.sensor(named[sensors[0]], sensors[0])
+    camera, width, height = objects.sensor(named[key], key)
     limits.check(surfaces, camera)
     surfaces, media = _visible(surfaces, bsdfs, medium.around(surfaces, bsdfs, camera.origin))
     for surface in surfaces:
@@ -126,6 +122,16 @@ def load_dict(description, name="scene", folder="."):
     return Scene(
         Definition(name, surfaces, used, camera, width, height, source, lights, media, bsdfs.textures)
     )
+
+
+def _only_sensor(kinds):
+    """Name of the sensor; TracerError unless there is one."""
+    sensors = [key for key, kind in kinds.items() if kind == "sensor"]
+    if len(sensors) != 1:
+        raise TracerError(
+            f'a scene has one sensor (type "perspective" or "thinlens"); here are {len(sensors)}'
+        )
+    return sensors[0]
 
 
 class _Bsdfs(dict):

@@ -32,16 +32,41 @@ class Firsts(NamedTuple):
 
 def firsts(a, b, events, exact=False):
     """The Firsts of two traces with their Events; exact: whether every bit counts."""
-    fields, eps = compared(a, b), 0.0 if exact else STEPS * max(a.eps, b.eps)
     common = np.minimum(events[0].lengths, events[1].lengths)
     pair = np.repeat(np.arange(common.size), common)
     rank = np.arange(pair.size) - np.repeat(np.cumsum(common) - common, common)
     one, other = (e.begin[pair] + rank for e in events)
-    code = np.zeros(pair.size, np.int16)  # 0: the same; else 1 + place in the list of names
+    code, names, unequal = _told_apart(a, b, events, (one, other), exact)
+    places = np.flatnonzero(code)
+    parting, first = np.unique(pair[places], return_index=True)
+    places = places[first]
+    shorter = np.flatnonzero(events[0].lengths != events[1].lengths)
+    shorter = shorter[~np.isin(shorter, parting)]
+    ends = [
+        np.where(e.lengths[shorter] > common[shorter], e.begin[shorter] + common[shorter], -1) for e in events
+    ]
+    what = [names[c - 1] for c in code[places]] + [MISSING] * shorter.size
+    both = np.r_[parting, shorter]
+    order = np.argsort(both, kind="stable")
+    return Firsts(
+        both[order],
+        np.r_[one[places], ends[0]][order],
+        np.r_[other[places], ends[1]][order],
+        [what[k] for k in order],
+        np.setdiff1d(np.unique(pair[unequal]), both).size,
+    )
+
+
+def _told_apart(a, b, events, places, exact):
+    """What is first unlike in each pair of events, (C,): 0 for nothing, else 1 + its place among the names;
+    the names; and which pairs are not the same to the last bit, (C,). places: of both in their Events."""
+    eps = 0.0 if exact else STEPS * max(a.eps, b.eps)
+    one, other = places
+    code, unequal = np.zeros(one.size, np.int16), np.zeros(one.size, bool)
     names = [KIND, DEPTH]
     code[events[0].depth[one] != events[1].depth[other]] = 2
     code[events[0].kind[one] != events[1].kind[other]] = 1
-    unequal = np.zeros(pair.size, bool)
+    fields = compared(a, b)
     for number, kind in enumerate(KINDS):
         there = np.flatnonzero((code == 0) & (events[0].kind[one] == number))
         rows = events[0].row[one[there]], events[1].row[other[there]]
@@ -55,26 +80,7 @@ def firsts(a, b, events, exact=False):
             unequal[there[unlike]] = True
             new = there[apart]
             code[new[code[new] == 0]] = len(names)
-    places = np.flatnonzero(code)
-    parting, first = np.unique(pair[places], return_index=True)
-    places = places[first]
-    shorter = np.flatnonzero(events[0].lengths != events[1].lengths)
-    shorter = shorter[~np.isin(shorter, parting)]
-    found_a, found_b, what = one[places], other[places], [names[c - 1] for c in code[places]]
-    ends = [
-        np.where(e.lengths[shorter] > common[shorter], e.begin[shorter] + common[shorter], -1) for e in events
-    ]
-    both = np.r_[parting, shorter]
-    order = np.argsort(both, kind="stable")
-    what += [MISSING] * shorter.size
-    rounded = np.setdiff1d(np.unique(pair[unequal]), both)
-    return Firsts(
-        both[order],
-        np.r_[found_a, ends[0]][order],
-        np.r_[found_b, ends[1]][order],
-        [what[k] for k in order],
-        rounded.size,
-    )
+    return code, names, unequal
 
 
 def compared(a, b):

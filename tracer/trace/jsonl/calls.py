@@ -61,31 +61,13 @@ def chained(columns):
     """The Chain of calls in any order. Left out and told of: paths whose first call is not there, and all but
     the last of several calls from one."""
     rows, _ = path_numbers(columns)
-    notes, size = [], columns.size
     call, parent = _numbered(columns, rows)
     order = np.lexsort((call, rows))
-    rows, call, parent = rows[order], call[order], parent[order]
-    most = int(call.max()) + 2
-    keys = rows * most + call
-    above = np.searchsorted(keys, rows * most + parent)
-    above = np.where(parent < 0, -1, np.minimum(above, size - 1))
-    lost = (parent >= 0) & ((keys[above] != rows * most + parent) | (parent >= call))
-    again = np.zeros(size, bool)
-    again[1:] = (keys[1:] == keys[:-1]) | ((parent[1:] < 0) & (rows[1:] == rows[:-1]))
-    above[lost | again] = -2
+    rows = rows[order]
+    above = _above(rows, call[order], parent[order])
     level = _levels(above)
-    keep = level >= 0
-    followed = np.zeros(size, bool)
-    inner = np.flatnonzero(keep & (above >= 0))
-    _, where = np.unique(above[inner[::-1]], return_index=True)
-    followed[inner[::-1][where]] = True
-    beside = int(inner.size - where.size)
-    while True:  # what hangs on a call that is left out is left out
-        fine = keep & ((above < 0) | followed)
-        fine &= np.where(above >= 0, fine[np.maximum(above, 0)], fine)
-        if np.array_equal(fine, keep):
-            break
-        keep = fine
+    keep, beside = _followed(above, level)
+    notes = []
     if beside:
         notes.append(
             f"{beside} calls have another beside them from the same call: castRay calls itself more than "
@@ -101,6 +83,35 @@ def chained(columns):
     last = np.ones(rows.size, bool)
     last[:-1] = rows[1:] != rows[:-1]
     return Chain(columns, rows, level, last, notes)
+
+
+def _above(rows, call, parent):
+    """The row of the call that called each, (N,), of calls in the order of path and number: -1 for none, -2
+    where it is not there or the call is there twice."""
+    most = int(call.max()) + 2
+    keys = rows * most + call
+    above = np.searchsorted(keys, rows * most + parent)
+    above = np.where(parent < 0, -1, np.minimum(above, rows.size - 1))
+    lost = (parent >= 0) & ((keys[above] != rows * most + parent) | (parent >= call))
+    again = np.zeros(rows.size, bool)
+    again[1:] = (keys[1:] == keys[:-1]) | ((parent[1:] < 0) & (rows[1:] == rows[:-1]))
+    above[lost | again] = -2
+    return above
+
+
+def _followed(above, level):
+    """Which calls are followed, (N,), the last of those from one call, and how many are left out for it."""
+    keep = level >= 0
+    followed = np.zeros(above.size, bool)
+    inner = np.flatnonzero(keep & (above >= 0))
+    _, where = np.unique(above[inner[::-1]], return_index=True)
+    followed[inner[::-1][where]] = True
+    while True:  # what hangs on a call that is left out is left out
+        fine = keep & ((above < 0) | followed)
+        fine &= np.where(above >= 0, fine[np.maximum(above, 0)], fine)
+        if np.array_equal(fine, keep):
+            return keep, int(inner.size - where.size)
+        keep = fine
 
 
 def _numbered(columns, rows):

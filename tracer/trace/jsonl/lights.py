@@ -14,45 +14,52 @@ class Lights(Stages):
     def _light(self):
         """Columns of light samples but for throughput and contribution."""
         rows = self.rows["light"]
-        said = lambda name, *otherwise: self._said("light", name, *otherwise)  # noqa: E731
-        found = {name: said(name) for name in ("u", "transmittance")}
-        q, p = said("q"), self.places.p[:, rows]
-        found |= {"q": q, "f": said("f"), "Le": said("Le"), "wi": said("wi"), "visible": said("visible")}
-        if q is not None:
-            gap = q - p
-            found["wi"] = said("wi", lambda: normalize(gap))
-            found["distance"] = said("distance", lambda: length(gap))
-            primitive = self._lamps(q, found["wi"])
-            found["primitive"] = said("primitive", lambda: primitive)
-            primitive = found["primitive"].astype(np.intp)
-            found["light"] = said("light", lambda: np.maximum(self.scene.light_of.take(primitive), 0))
-            ng, _ = geometry.surfaces(self.scene, q, found["wi"], primitive)
-            found["nq"] = nq = said("nq", lambda: ng)
-            front = (-dot(ng, found["wi"]) > 0.0) | self._edge_on(q, p, ng, rows)
-            found["Le"] = said("Le", lambda: self._radiance(primitive, front)) * front
-            by_area = bool(self.chain.given("light.pdf_area")[rows].all())
-            found["pdf"] = said("pdf", lambda: self._density(found, p, ng), by_area)
-            found["cos_light"] = said("cos_light", lambda: -dot(nq, found["wi"]))
-            if len(self.scene.light_names) == 1:
-                found["pick"] = said("pick", lambda: np.ones(rows.size))
-        found["pick"] = found.get("pick", said("pick"))
+        found = {
+            name: self._of_light(name) for name in ("u", "transmittance", "q", "f", "Le", "wi", "visible")
+        }
+        if found["q"] is not None:
+            self._pointed(found, rows)
+        found["pick"] = found.get("pick", self._of_light("pick"))
         wi = found["wi"]
         if wi is not None:
             vertex = self.places.vertex(rows)
-            found["cos"] = said("cos", lambda: np.abs(dot(vertex["n"], wi)))
-            found["f"] = said("f", lambda: geometry.ask(self.scene, "eval", vertex, wi))
-        found["pdf_bsdf"] = said("pdf_bsdf")
+            found["cos"] = self._of_light("cos", lambda: np.abs(dot(vertex["n"], wi)))
+            found["f"] = self._of_light("f", lambda: geometry.ask(self.scene, "eval", vertex, wi))
+        found["pdf_bsdf"] = self._of_light("pdf_bsdf")
         only = self.settings.integrator == "direct" or self.settings.strategy == "light"
-        found["w"] = said("w", (lambda: np.ones(rows.size)) if only else None)
+        found["w"] = self._of_light("w", (lambda: np.ones(rows.size)) if only else None)
         by_area = self.chain.given("light.pdf_area").any() or self.settings.light_sampling == "area"
         way = TECHNIQUES.index("area" if by_area else "solid_angle")
-        found["technique"] = said("technique", lambda: np.full(rows.size, way))
+        found["technique"] = self._of_light("technique", lambda: np.full(rows.size, way))
         if self._all_given("direct", rows):
             direct = self.chain("direct")[:, rows]
-            found["visible"] = said("visible", lambda: (direct != 0.0).any(axis=0), True)
+            found["visible"] = self._of_light("visible", lambda: (direct != 0.0).any(axis=0), True)
             self._as_near_as_points_say(found, direct, rows)
         self._beneath(found, rows)
         return found
+
+    def _of_light(self, name, *otherwise):
+        return self._said("light", name, *otherwise)
+
+    def _pointed(self, found, rows):
+        """Add what follows from the point on the light: where it lies, its radiance and its density."""
+        said, q, p = self._of_light, found["q"], self.places.p[:, rows]
+        gap = q - p
+        found["wi"] = said("wi", lambda: normalize(gap))
+        found["distance"] = said("distance", lambda: length(gap))
+        primitive = self._lamps(q, found["wi"])
+        found["primitive"] = said("primitive", lambda: primitive)
+        primitive = found["primitive"].astype(np.intp)
+        found["light"] = said("light", lambda: np.maximum(self.scene.light_of.take(primitive), 0))
+        ng, _ = geometry.surfaces(self.scene, q, found["wi"], primitive)
+        found["nq"] = nq = said("nq", lambda: ng)
+        front = (-dot(ng, found["wi"]) > 0.0) | self._edge_on(q, p, ng, rows)
+        found["Le"] = said("Le", lambda: self._radiance(primitive, front)) * front
+        by_area = bool(self.chain.given("light.pdf_area")[rows].all())
+        found["pdf"] = said("pdf", lambda: self._density(found, p, ng), by_area)
+        found["cos_light"] = said("cos_light", lambda: -dot(nq, found["wi"]))
+        if len(self.scene.light_names) == 1:
+            found["pick"] = said("pick", lambda: np.ones(rows.size))
 
     def _off(self):
         """How far each coordinate of a logged point may be off by its printing."""
