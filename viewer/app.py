@@ -106,23 +106,18 @@ class Scenes:
 
 
 def _run(session, port, open_browser, number=None, framed=False, engine="numpy"):
-    from trame.app import get_server
-
-    gl = _gl_server(engine)
+    gl = _gl_server(engine)  # before what follows, which takes long to import
     if gl is not None:
         session.shelf["gl"] = gl
     from viewer.calls import Calls
-    from viewer.opening.routes import serve_opening, show_findings
+    from viewer.opening.routes import serve_opening
     from viewer.sharing.routes import serve_files
     from viewer.window import Window
 
-    say, server = Speaker(), get_server("castray", client_type="vue3")
-    served = {"castray": str(STATIC), "fonts": _fonts()}
-    scripts = [f"castray/{name}" for name in files(".js") if name != "boot.js"]
-    server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
-    server.state.trame__title = say("title")
+    say = Speaker()
+    server = _trame(say("title"))
     window, door = Window(server, session, say), Door(page(say("title")), framed)
-    calls, watched = Calls(window).by_name, session.shelf.get("watched")
+    calls = Calls(window).by_name
 
     def bind(web_server):
         web_server.app.middlewares.append(door.middleware)
@@ -130,24 +125,11 @@ def _run(session, port, open_browser, number=None, framed=False, engine="numpy")
         serve_files(web_server, window)
         serve_opening(web_server, window, calls)
 
-    def shown(given):
-        window.give(given)
-        if watched.runs == 1:
-            show_findings(window)
-
     def ready(**_):
         window.loop = asyncio.get_running_loop()
         address = f"http://127.0.0.1:{server.port}/?key={door.key}"
         print(address, flush=True)
-        window.paint()
-        if watched is not None:
-            watched.start(window.back, shown, lambda: window.show("given"))
-        if session.given is not None:
-            show_findings(window)
-        if number is not None:
-            with server.state as state:
-                state.tab = "lesson"
-                calls["lesson_open"](number)
+        _begin(window, calls, number)
         if open_browser:
             webbrowser.open(address)
 
@@ -160,13 +142,53 @@ def _run(session, port, open_browser, number=None, framed=False, engine="numpy")
     except KeyboardInterrupt:
         pass
     finally:
-        window.stop_painting()
-        if gl is not None:
-            gl.close()
-        if watched is not None:
-            watched.stop()
-        session.close()
+        _end(window)
     print("castray: viewer closed", file=sys.stderr)
+
+
+def _trame(title):
+    """trame's server, which serves our styles and scripts."""
+    from trame.app import get_server
+
+    server = get_server("castray", client_type="vue3")
+    served = {"castray": str(STATIC), "fonts": _fonts()}
+    scripts = [f"castray/{name}" for name in files(".js") if name != "boot.js"]
+    server.enable_module({"serve": served, "scripts": scripts, "vue_use": ["castray"]})
+    server.state.trame__title = title
+    return server
+
+
+def _begin(window, calls, number):
+    """What goes on from the start: the picture, a learner's tracer, a lesson of that number if any."""
+    from viewer.opening.routes import show_findings
+
+    session, watched = window.session, window.session.shelf.get("watched")
+
+    def shown(given):
+        window.give(given)
+        if watched.runs == 1:
+            show_findings(window)
+
+    window.paint()
+    if watched is not None:
+        watched.start(window.back, shown, lambda: window.show("given"))
+    if session.given is not None:
+        show_findings(window)
+    if number is not None:
+        with window.state as state:
+            state.tab = "lesson"
+            calls["lesson_open"](number)
+
+
+def _end(window):
+    """End what works beside the page."""
+    shelf = window.session.shelf
+    window.stop_painting()
+    if "gl" in shelf:
+        shelf["gl"].close()
+    if "watched" in shelf:
+        shelf["watched"].stop()
+    window.session.close()
 
 
 def _gl_server(engine):

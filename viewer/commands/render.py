@@ -74,24 +74,14 @@ def render(
         Say what the scene needs, what is skipped, and why.
     """
     check_engine(engine)
-    if engine == "gl" and record is not None:
-        raise TracerError("engine: gl keeps no paths; leave out --record, or choose engine numpy")
-    if cluster is not None and (engine != "numpy" or workers is not None):
-        raise TracerError("cluster: its workers trace, with engine numpy; leave out --engine and --workers")
-    if workers is not None and not 1 <= workers <= 1024:
-        raise TracerError(f"workers: {workers} is not between 1 and 1024")
+    planned = until_error is not None or adaptive != "off"
+    _check_together(engine, workers, cluster, record, record_level, planned)
     settings, steps = settings_and_steps(options)
     if until_error is not None and (options is None or options.spp == PathOptions().spp):
         settings = replace(settings, spp=MOST_SPP)
     loaded = scene_of(scene, options)
     path = Path(f"{loaded.name}.png") if output is None else output
     check_path(path)
-    if record is None and record_level is not None:
-        raise TracerError("record_level: says how much is kept in the folder that --record names; name one")
-    if record is not None and (until_error is not None or adaptive != "off"):
-        raise TracerError(
-            "record: keeps the same samples of every pixel; leave out --until-error and --adaptive"
-        )
     why = ""
     if engine == "auto":
         engine, why = _chosen(loaded, settings, steps, record)
@@ -101,7 +91,7 @@ def render(
         common |= {"progress": progress, "cluster": machines}
         if record is not None:
             picture = tracer.record(loaded, settings, record, record_level or "paths", **common)
-        elif machines and until_error is None and adaptive == "off":
+        elif machines and not planned:
             picture = _going_on(path, loaded, settings, common)
         else:
             picture = tracer.render(loaded, settings, **common, **plan)
@@ -117,6 +107,22 @@ def render(
     if machines is not None and machines.lost:
         return 1
     return 0 if picture.complete else 130
+
+
+def _check_together(engine, workers, cluster, record, record_level, planned):
+    """TracerError for options that are no use together. planned: whether pixels get unlike many samples."""
+    if engine == "gl" and record is not None:
+        raise TracerError("engine: gl keeps no paths; leave out --record, or choose engine numpy")
+    if cluster is not None and (engine != "numpy" or workers is not None):
+        raise TracerError("cluster: its workers trace, with engine numpy; leave out --engine and --workers")
+    if workers is not None and not 1 <= workers <= 1024:
+        raise TracerError(f"workers: {workers} is not between 1 and 1024")
+    if record is None and record_level is not None:
+        raise TracerError("record_level: says how much is kept in the folder that --record names; name one")
+    if record is not None and planned:
+        raise TracerError(
+            "record: keeps the same samples of every pixel; leave out --until-error and --adaptive"
+        )
 
 
 def _going_on(path, scene, settings, options):
@@ -166,38 +172,51 @@ def _kept(record):
 
 
 def _report(scene, picture, path, as_json, features, kept):
-    """What was rendered, as one JSON document or one line; features: what it needed, if that was asked; kept:
-    what was recorded."""
-    height, width = picture.samples.shape
-    settings = picture.settings
+    """What was rendered, as one JSON document or some lines; features: what it needed, if that was asked;
+    kept: what was recorded."""
     if as_json:
-        print_json(
-            {
-                "scene": scene.name,
-                "width": width,
-                "height": height,
-                "spp": settings.spp,
-                "seed": settings.seed,
-                "engine": picture.engine,
-                "seconds": picture.seconds,
-                "paths": picture.paths,
-                "rays": picture.rays,
-                "mean": [float(v) for v in picture.rgb.mean(axis=(0, 1), dtype="float64")],
-                "dropped": picture.dropped,
-                "samples": [int(picture.samples.min()), int(picture.samples.max())],
-                "saved": picture.saved,
-                "complete": picture.complete,
-                "settings": settings.as_dict(),
-                "out": str(path),
-            }
-            | ({"explain": [need._asdict() for need in features]} if features else {})
-            | ({"record": kept} if kept else {})
-        )
+        told = {"explain": [need._asdict() for need in features]} if features else {}
+        print_json(_as_dict(scene, picture, path) | told | ({"record": kept} if kept else {}))
         return
     if features:
         from viewer.report import print_needs
 
         print_needs(features)
+    _print_picture(picture, path)
+    if kept:
+        of_parts = f"{kept['done']} of {kept['parts']} parts of level {kept['level']}"
+        more = "" if picture.complete else "; the same command goes on"
+        print(f"{kept['folder']}: {of_parts}, {kept['bytes'] / 1e6:.1f} MB{more}")
+
+
+def _as_dict(scene, picture, path):
+    """A picture and what it cost, as plain values."""
+    height, width = picture.samples.shape
+    settings = picture.settings
+    return {
+        "scene": scene.name,
+        "width": width,
+        "height": height,
+        "spp": settings.spp,
+        "seed": settings.seed,
+        "engine": picture.engine,
+        "seconds": picture.seconds,
+        "paths": picture.paths,
+        "rays": picture.rays,
+        "mean": [float(v) for v in picture.rgb.mean(axis=(0, 1), dtype="float64")],
+        "dropped": picture.dropped,
+        "samples": [int(picture.samples.min()), int(picture.samples.max())],
+        "saved": picture.saved,
+        "complete": picture.complete,
+        "settings": settings.as_dict(),
+        "out": str(path),
+    }
+
+
+def _print_picture(picture, path):
+    """A picture and what it cost, in lines."""
+    height, width = picture.samples.shape
+    spp = picture.settings.spp
     rate = picture.paths / max(picture.seconds, 1e-9)
     print(
         f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"
@@ -205,12 +224,8 @@ def _report(scene, picture, path, as_json, features, kept):
     if picture.samples.min() < picture.samples.max():
         every = sorted(picture.samples.ravel().tolist())
         spent = f"{every[0]} to {every[-1]}, median {every[len(every) // 2]}"
-        print(f"samples per pixel: {spent}; {picture.saved:.1%} of {settings.spp} saved")
+        print(f"samples per pixel: {spent}; {picture.saved:.1%} of {spp} saved")
     if not picture.complete:
-        print(f"stopped early: every pixel has at least {picture.samples.min()} of {settings.spp} samples")
+        print(f"stopped early: every pixel has at least {picture.samples.min()} of {spp} samples")
     if picture.dropped:
         print(f"{picture.dropped} samples were not finite and count as 0")
-    if kept:
-        of_parts = f"{kept['done']} of {kept['parts']} parts of level {kept['level']}"
-        more = "" if picture.complete else "; the same command goes on"
-        print(f"{kept['folder']}: {of_parts}, {kept['bytes'] / 1e6:.1f} MB{more}")
