@@ -5,13 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer import warp
-from tracer.bsdf import fresnel
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.metal import Metal
+from tracer.bsdf.sample import Dirac, Sample
 from tracer.events import LOBES
 
 
 @dataclass(frozen=True)
-class Conductor(Material):
+class Conductor(Dirac, Metal):
     """A Dirac lobe in the mirror direction with the Fresnel reflectance of eta + i k.
 
     A perfect mirror is written as k = inf.
@@ -22,32 +22,9 @@ class Conductor(Material):
     specular_reflectance: np.ndarray  # (3, M) factor on top, 1 for a real metal
     fresnel: str = "exact"  # or "schlick"
 
-    delta = True
-
-    def reflectance_at(self, cos):
-        """Unpolarised reflectance (3, N) for the cosine of wo."""
-        mean = fresnel.conductor_mean(cos, self.eta, self.k, self.fresnel)
-        return mean.astype(cos.dtype) * self.specular_reflectance
-
     def explain(self, wo, wi):
         """F (3, N)."""
         return {"F": self.reflectance_at(np.clip(wo[2], 0.0, 1.0))}
-
-    def albedo(self):
-        """Largest share of light that is sent back, (3, M)."""
-        return self.specular_reflectance
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings: its reflectance head on, (3, M)."""
-        return self.reflectance_at(np.ones(1, self.eta.dtype))
-
-    def eval(self, wo, wi):
-        """0: a Dirac lobe has no value in any given direction."""
-        return np.zeros_like(wo)
-
-    def pdf(self, wo, wi):
-        """0, as for eval."""
-        return np.zeros_like(wo[2])
 
     def sample(self, wo, u):
         """The mirror direction, with probability 1."""

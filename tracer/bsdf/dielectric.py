@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.bsdf import fresnel
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.glass import Refracting
+from tracer.bsdf.sample import Dirac, Sample
 from tracer.events import LOBES
 
 
 @dataclass(frozen=True)
-class Dielectric(Material):
+class Dielectric(Dirac, Refracting):
     """Two Dirac lobes: F in the mirror direction, 1 - F in Snell's.
 
     What is transmitted is radiance, which grows by the square of the index it enters: seen along the path
@@ -22,26 +23,10 @@ class Dielectric(Material):
     specular_transmittance: np.ndarray  # (3, M) factor on the transmitted light, 1 for clear glass
     fresnel: str = "exact"  # or "schlick"
 
-    delta = True
-    one_sided = False
-    see_through = True
-
     @property
     def vanishes(self):
         """Whether both sides have the same index and nothing is coloured: a surface nobody can see."""
         return bool((self.eta == 1.0).all() and (self.specular_transmittance == 1.0).all())
-
-    def albedo(self):
-        """Largest share of light that is sent on, (3, M)."""
-        return np.maximum(self.specular_reflectance, self.specular_transmittance)
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings, (3, M)."""
-        return self.specular_transmittance
-
-    def relative_eta(self, cos):
-        """Index across the surface over index on the side of wo, (N,)."""
-        return np.where(cos > 0.0, self.eta, 1.0 / self.eta)
 
     def reflectance_at(self, cos):
         """Unpolarised reflectance (3, N) for the (signed) cosine of wo."""
@@ -51,14 +36,6 @@ class Dielectric(Material):
     def explain(self, wo, wi):
         """F (3, N), and the index across the surface as eta."""
         return {"F": self.reflectance_at(wo[2]), "eta": self.relative_eta(wo[2])}
-
-    def eval(self, wo, wi):
-        """0: Dirac lobes have no value in any given direction."""
-        return np.zeros_like(wo)
-
-    def pdf(self, wo, wi):
-        """0, as for eval."""
-        return np.zeros_like(wo[2])
 
     def sample(self, wo, u):
         """The mirror direction with probability F, Snell's with 1 - F."""

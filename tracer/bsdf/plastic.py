@@ -6,12 +6,13 @@ import numpy as np
 
 from tracer import warp
 from tracer.bsdf import fresnel
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.coat import Coated
+from tracer.bsdf.sample import Sample
 from tracer.events import LOBES
 
 
 @dataclass(frozen=True)
-class Plastic(Material):
+class Plastic(Coated):
     """A Dirac lobe of Fresnel's reflectance F, and what gets through the coat, is scattered and gets out:
 
         f = (1 - F(wo)) (1 - F(wi)) rho / (pi eta^2 (1 - rho F_in))
@@ -33,27 +34,9 @@ class Plastic(Material):
         inside = 1.0 - (1.0 - fresnel.diffuse_average(eta, formula)) / (eta * eta)
         return cls(eta, inside, diffuse_reflectance, specular_reflectance, nonlinear, formula)
 
-    def albedo(self):
-        """Bound of the share of light that is sent back, (3, M)."""
-        return np.maximum(self.diffuse_reflectance, self.specular_reflectance)
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings, (3, M)."""
-        return self.diffuse_reflectance
-
-    def reflectance_at(self, cos):
-        """F (N,) of the coat for a cosine above the surface."""
-        eta = np.broadcast_to(self.eta, cos.shape)
-        return fresnel.dielectric_mean(np.clip(cos, 0.0, 1.0), eta, self.fresnel)[0].astype(cos.dtype)
-
     def explain(self, wo, wi):
         """F of the coat."""
         return {"F": self.reflectance_at(wo[2])}
-
-    def _base(self):
-        """pi f without the two factors 1 - F, (3, N)."""
-        rho = self.diffuse_reflectance
-        return rho / (1.0 - (rho if self.nonlinear else 1.0) * self.inside) / (self.eta * self.eta)
 
     def _mirror_chance(self, F):
         """Probability (N,) of the mirror lobe: its share of the largest channel's light."""

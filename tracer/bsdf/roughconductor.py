@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.bsdf import fresnel
+from tracer.bsdf.metal import Metal
 from tracer.bsdf.microfacet import Facets, mirrored, reflected, upwards
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.sample import Sample
 from tracer.events import LOBES
 
 
 @dataclass(frozen=True)
-class RoughConductor(Material):
+class RoughConductor(Metal):
     """f = F D G2 / (4 cos_o cos_i) (Torrance and Sparrow 1967), sampled by visible normals (Heitz 2014).
 
     The weight f cos / pdf is F G2 / G1 and so never above F. A perfect mirror's facets: k = inf.
@@ -34,19 +34,6 @@ class RoughConductor(Material):
     def facets(self):
         """The normals of its surface."""
         return Facets(self.distribution, self.alpha_u, self.alpha_v)
-
-    def reflectance_at(self, cos):
-        """Unpolarised reflectance (3, N) of a facet for the cosine at it."""
-        mean = fresnel.conductor_mean(cos, self.eta, self.k, self.fresnel)
-        return mean.astype(cos.dtype) * self.specular_reflectance
-
-    def albedo(self):
-        """Bound of the share of light that is sent back, (3, M)."""
-        return self.specular_reflectance
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings: its reflectance head on, (3, M)."""
-        return self.reflectance_at(np.ones(1, self.eta.dtype))
 
     def eval(self, wo, wi):
         """F D G2 / (4 cos_o cos_i) where both directions are above the surface."""

@@ -5,14 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.bsdf import fresnel
+from tracer.bsdf.glass import Refracting
 from tracer.bsdf.microfacet import Facets, reflected, renormalised, unit, upwards
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.sample import Sample
 from tracer.events import LOBES
 from tracer.frame import dot
 
 
 @dataclass(frozen=True)
-class RoughDielectric(Material):
+class RoughDielectric(Refracting):
     """With h = wo + wi for reflection, h = wo + e wi for transmission, e the index across over that at wo:
 
         f_r = F D G2 / (4 |cos_o cos_i|)
@@ -30,9 +31,6 @@ class RoughDielectric(Material):
     distribution: str = "ggx"  # or "beckmann"
     fresnel: str = "exact"  # or "schlick"
 
-    one_sided = False
-    see_through = True
-
     @property
     def anisotropic(self):
         """Whether it minds being turned about the normal."""
@@ -42,18 +40,6 @@ class RoughDielectric(Material):
     def facets(self):
         """The normals of its surface."""
         return Facets(self.distribution, self.alpha_u, self.alpha_v)
-
-    def albedo(self):
-        """Bound of the share of light that is sent on, (3, M)."""
-        return np.maximum(self.specular_reflectance, self.specular_transmittance)
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings, (3, M)."""
-        return self.specular_transmittance
-
-    def relative_eta(self, cos):
-        """Index across the surface over index on the side of wo, (N,)."""
-        return np.where(cos > 0.0, self.eta, 1.0 / self.eta)
 
     def eval(self, wo, wi):
         """f_r on the side of wo, f_t on the other."""

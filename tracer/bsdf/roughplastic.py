@@ -6,8 +6,9 @@ import numpy as np
 
 from tracer import warp
 from tracer.bsdf import fresnel
+from tracer.bsdf.coat import Coated
 from tracer.bsdf.microfacet import Facets, mirrored, reflected, unit, upwards
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.sample import Sample
 from tracer.events import LOBES
 from tracer.frame import dot
 
@@ -15,7 +16,7 @@ NODES = 64  # of the tables over the angle, evenly spaced in the root of the cos
 
 
 @dataclass(frozen=True)
-class RoughPlastic(Material):
+class RoughPlastic(Coated):
     """f = F D G2 / (4 cos_o cos_i) + T(wo) T(wi) rho / (pi eta^2 (1 - rho R_in)).
 
     T(w) is what the rough coat lets through of light along w, R_in the share of diffuse light that it sends
@@ -51,19 +52,6 @@ class RoughPlastic(Material):
         """The normals of the coat."""
         return Facets(self.distribution, self.alpha, self.alpha)
 
-    def albedo(self):
-        """Bound of the share of light that is sent back, (3, M)."""
-        return np.maximum(self.diffuse_reflectance, self.specular_reflectance)
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings, (3, M)."""
-        return self.diffuse_reflectance
-
-    def reflectance_at(self, cos):
-        """F (N,) of a facet for the cosine at it."""
-        eta = np.broadcast_to(self.eta, cos.shape)
-        return fresnel.dielectric_mean(np.clip(cos, 0.0, 1.0), eta, self.fresnel)[0].astype(cos.dtype)
-
     def _through(self, cos):
         """T (N,), between the nodes of its table."""
         x = np.sqrt(np.clip(cos, 0.0, 1.0)) * (NODES - 1.0)
@@ -71,11 +59,6 @@ class RoughPlastic(Material):
         lane = np.arange(cos.size) if self.through.shape[1] == cos.size else 0
         low, high = self.through[k, lane], self.through[k + 1, lane]
         return low + (x - k.astype(x.dtype)) * (high - low)
-
-    def _base(self):
-        """pi f of the diffuse part without T(wo) T(wi), (3, N)."""
-        rho = self.diffuse_reflectance
-        return rho / (1.0 - (rho if self.nonlinear else 1.0) * self.inside) / (self.eta * self.eta)
 
     def _glossy_chance(self, wo):
         """Probability (N,) of the glossy lobe: its share, about, of the largest channel's light."""

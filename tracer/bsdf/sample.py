@@ -79,3 +79,17 @@ class Material:
             elif isinstance(value, Material):
                 changed[f.name] = inside(value)
         return replace(self, **changed)
+
+
+class Dirac(Material):
+    """What materials share that have nothing but Dirac lobes."""
+
+    delta = True
+
+    def eval(self, wo, wi):
+        """0: a Dirac lobe has no value in any given direction."""
+        return np.zeros_like(wo)
+
+    def pdf(self, wo, wi):
+        """0, as for eval."""
+        return np.zeros_like(wo[2])

@@ -6,12 +6,13 @@ import numpy as np
 
 from tracer import warp
 from tracer.bsdf import fresnel
-from tracer.bsdf.sample import Material, Sample
+from tracer.bsdf.glass import Glass
+from tracer.bsdf.sample import Dirac, Sample
 from tracer.events import LOBES
 
 
 @dataclass(frozen=True)
-class ThinDielectric(Material):
+class ThinDielectric(Dirac, Glass):
     """Two Dirac lobes: the sum over all bounces between the faces is R' = 2 R / (1 + R), T' = 1 - R'.
 
     R is Fresnel's reflectance of one face. Nothing changes its speed for good, so no radiance is scaled.
@@ -22,23 +23,12 @@ class ThinDielectric(Material):
     specular_transmittance: np.ndarray  # (3, M) factor on the transmitted light, 1 for clear glass
     fresnel: str = "exact"  # or "schlick"
 
-    delta = True
-    one_sided = False
-    see_through = True
     thin = True
 
     @property
     def vanishes(self):
         """Whether nobody can see the pane: of the index of what is around it, and without colour."""
         return bool((self.eta == 1.0).all() and (self.specular_transmittance == 1.0).all())
-
-    def albedo(self):
-        """Largest share of light that is sent on, (3, M)."""
-        return np.maximum(self.specular_reflectance, self.specular_transmittance)
-
-    def display_colour(self):
-        """Colour that stands for the material in drawings, (3, M)."""
-        return self.specular_transmittance
 
     def reflectance_at(self, cos):
         """Share (N,) that both faces together mirror, for the (signed) cosine of wo."""
@@ -49,14 +39,6 @@ class ThinDielectric(Material):
     def explain(self, wo, wi):
         """F of the whole pane."""
         return {"F": self.reflectance_at(wo[2])}
-
-    def eval(self, wo, wi):
-        """0: Dirac lobes have no value in any given direction."""
-        return np.zeros_like(wo)
-
-    def pdf(self, wo, wi):
-        """0, as for eval."""
-        return np.zeros_like(wo[2])
 
     def sample(self, wo, u):
         """The mirror direction with probability R', straight on with T'."""
