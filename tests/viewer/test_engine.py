@@ -108,18 +108,24 @@ def shown(page):
     return np.frombuffer(bytes(rgb), np.float32).reshape(64, 64, 3)
 
 
+@pytest.mark.slow
 @pytest.mark.browser
-def test_the_picture_is_that_of_castray_render_by_gl_also_of_a_turned_knob(page, tmp_path):
-    for knob in (["white.reflectance", 0.25], ["lamp.scale", 2]):
-        page.evaluate("knob => window.trame.trigger('change', knob)", knob)
-        page.wait_for_function("name => window.trame.state.get('link').includes(name)", arg=knob[0])
+def test_the_picture_is_that_of_castray_render_by_gl_whatever_is_turned(page, tmp_path):
+    turned = (
+        ("change", "white.reflectance", 0.25),
+        ("change", "lamp.scale", 2),
+        ("tune", "sampler", "lattice"),
+    )
+    for call, name, value in turned:
+        page.evaluate("([call, ...knob]) => window.trame.trigger(call, knob)", [call, name, value])
+        page.wait_for_function("name => window.trame.state.get('link').includes(name)", arg=name)
         complete(page, "by gl: ")
-        changes = parse(page.evaluate("() => window.trame.trigger('truth')")["link"]).changes
-        words = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
-        file = tmp_path / "a.npy"
-        done = castray("render", "cornell_unit", *SMALL, *words, "--engine", "gl", "-o", file)
+        there = parse(page.evaluate("() => window.trame.trigger('truth')")["link"])
+        words = [word for key, said in there.changes.items() for word in ("--set", f"{key}={said}")]
+        words += ["--sampler", there.settings.sampler, "--engine", "gl", "-o", tmp_path / "a.npy"]
+        done = castray("render", "cornell_unit", *SMALL, *words)
         assert done.returncode == 0, done.stderr
-        assert np.array_equal(shown(page), np.load(file))
+        assert np.array_equal(shown(page), np.load(tmp_path / "a.npy"))
     assert "rounding" in page.get_by_test_id("engine").get_attribute("title")
 
 
