@@ -3,7 +3,7 @@
 from viewer.panels import all_panels
 
 FRAME = """
-<castray-tab :owner="owner" :link="link" :x="picture.x" :y="picture.y" :language="language" :languages="languages"><template #default="{mine, take, speak}">
+<castray-tab :owner="owner" :link="link" :x="picture.x" :y="picture.y" :keys="help.keys" :language="language" :languages="languages"><template #default="{mine, take, speak}">
 <div class="castray" :class="{reading: lesson.number !== null || tab === 'lesson'}" data-testid="castray" :data-link="link">
   <header>
     <h1><img src="castray/icon.svg" alt="" width="20" height="20"> {{ w.title }}</h1>

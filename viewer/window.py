@@ -52,7 +52,7 @@ class Window:
 
         server, state = self.server, self.state
         languages = [{"tag": tag, "name": name} for tag, name in LANGUAGES.items()]
-        state.client_only("tab", "exposure", "wipe")
+        state.client_only("tab", "exposure", "wipe", "helped")
         first_tab = next(p.name for p in all_panels() if p.place == "tab")
         state.update(
             {
@@ -61,6 +61,7 @@ class Window:
                 "wipe": 0.5,
                 "owner": "",
                 "touched": False,
+                "helped": False,
                 "languages": languages,
             }
         )

@@ -1,11 +1,14 @@
 """The page takes care of servers that end and come back, of keys without a mouse, of those who cannot see."""
 
 import re
+from unittest.mock import MagicMock
 
 import pytest
 from suite import ROOT
 from viewers import SMALL
 
+from viewer.calls import OWN
+from viewer.panels import all_panels
 from viewer.panels.help import KEYS
 from viewer.words import LANGUAGES, table
 
@@ -20,17 +23,47 @@ NAMELESS = f"""() => {SEEN}.filter((e) => !(e.getAttribute("aria-label") || e.ti
 SKIPPED = f"() => {SEEN}.filter((e) => e.tabIndex !== 0){TOLD}"
 
 
-def test_the_help_lists_every_key_that_the_page_hears():
-    heard = set()
-    for name in ("KEYS", "TABS", "CALLS"):
-        body = re.search(rf"const {name} = {{(.*?)}};", SCRIPT)[1]
-        heard |= set(re.findall(r'(?:^|, )\s*"?([^\s":,\[\]]+|\[|\])"?: ', body))
+def test_the_page_hears_the_keys_that_its_help_lists_and_no_others():
+    asked = {call[0] for group in KEYS.values() for call in group.values()}
+    known = {*OWN, *(name for panel in all_panels() if panel.calls for name in panel.calls(MagicMock()))}
+    assert asked - known == {"beside", "help"}  # which the page does itself
+    keys = [key for group in KEYS.values() for key in group]
+    assert len(keys) == len(set(keys)) and {"ArrowLeft", "Home", "?", "l", "[", "]", "n", "p"} <= set(keys)
     signs = {"ArrowLeft": "←", "ArrowRight": "→", "ArrowUp": "↑", "ArrowDown": "↓"}
     for language in LANGUAGES:
-        listed = " ".join(table(language)[f"key.{k}"] for k in KEYS).lower()
-        missing = {key for key in heard if signs.get(key, key).lower() not in listed}
-        assert missing == set()
-    assert heard >= {"ArrowLeft", "Home", "?", "l", "[", "]", "n", "p"}
+        for name, group in KEYS.items():
+            listed = table(language)[f"key.{name}"].lower()
+            for key in group:
+                assert name in ("space", "shift") or signs.get(key, key).lower() in listed
+    heard = re.findall(r"event\.key === \"([^\"]*)\"", SCRIPT)
+    assert heard == [" "]  # Space on a button is the button's own
+
+
+@pytest.mark.browser
+def test_the_help_is_a_dialog_that_keeps_the_focus_and_gives_it_back(small, visit):
+    page = visit(small.address)
+    dialog, row = page.get_by_role("dialog", name="Help"), page.locator("tr.now")
+    page.get_by_test_id("mark-0").click()
+    page.locator("[data-testid=row-0][data-now=true]").wait_for()
+    page.keyboard.press("?")
+    dialog.wait_for()
+    assert dialog.locator(".keys tr").count() == len(KEYS)
+    within = "() => document.activeElement.closest('dialog') !== null"
+    for key in ("Tab", "Tab", "Tab", "Shift+Tab", "Shift+Tab"):
+        page.keyboard.press(key)
+        assert page.evaluate(within)
+    page.keyboard.press("ArrowRight")  # of the dialog now, not of the path
+    page.keyboard.press("Escape")
+    dialog.wait_for(state="hidden")
+    assert page.evaluate("() => document.activeElement.dataset.testid") == "mark-0"
+    assert row.first.get_attribute("data-testid") == "row-0"
+    page.get_by_test_id("help-open").click()
+    dialog.wait_for()
+    page.keyboard.press("?")
+    dialog.wait_for(state="hidden")
+    page.keyboard.press("ArrowRight")
+    page.locator("[data-testid=row-1][data-now=true]").wait_for()
+    assert page.errors == []
 
 
 @pytest.mark.browser

@@ -249,15 +249,11 @@
       <slot :home="home"></slot></div>`,
   };
 
-  const KEYS = { ArrowLeft: "previous", ArrowRight: "next", ArrowUp: "up", ArrowDown: "down", Home: "first", End: "last" };
-  const TABS = { "?": "help", l: "lesson" };
   const CHOSEN = "castray-language"; // where the browser keeps it
-  const CALLS = { "[": ["back", [-1]], "]": ["back", [1]], n: ["find_step", [1]], p: ["find_step", [-1]], d: ["compare_part", []], h: ["lobes", []] };
-  const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
   // One tab at a time: this one asks to lead, follows the link in its address, and hears the keys.
   const Tab = {
-    props: ["owner", "link", "x", "y", "language", "languages"],
+    props: ["owner", "link", "x", "y", "keys", "language", "languages"], // keys: {key: [call, arguments...]}
     setup(props) {
       const trame = inject("trame"), mine = () => props.owner === self;
       const take = () => trame.trigger("take", [self, "", wanted()]);
@@ -271,14 +267,18 @@
       const typing = (event) => /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
       function key(event) {
         if (!mine() || typing(event) || event.ctrlKey || event.altKey || event.metaKey) return;
-        const onButton = event.target.tagName === "BUTTON" && event.key === " ";
-        let call = null;
-        if (event.shiftKey && STEPS[event.key]) call = ["pick", [props.x + STEPS[event.key][0], props.y + STEPS[event.key][1]]];
-        else if (KEYS[event.key]) call = ["go", [KEYS[event.key]]];
-        else if (event.key === " " && !onButton) call = ["play", []];
-        else if (TABS[event.key]) trame.state.set("tab", TABS[event.key]);
-        else if (CALLS[event.key]) call = CALLS[event.key];
-        if (call) { event.preventDefault(); event.stopPropagation(); trame.trigger(...call); }
+        const named = (event.shiftKey && props.keys["Shift+" + event.key]) || props.keys[event.key];
+        const asking = !!document.querySelector("dialog[open]"), help = named && named[0] === "help";
+        const pressed = event.key === " " && /^(BUTTON|SUMMARY)$/.test(event.target.tagName);
+        if (!named || (asking && !help) || pressed) return;
+        const [name, ...given] = named;
+        let call = [name, given];
+        if (name === "beside") call = ["pick", [props.x + given[0], props.y + given[1]]];
+        if (name === "look") trame.state.set("tab", given[0]);
+        event.preventDefault();
+        event.stopPropagation();
+        if (help) trame.state.set("helped", !asking);
+        else trame.trigger(...call);
       }
       const hush = (event) => { if (!typing(event)) event.stopPropagation(); }; // vtk.js binds w, s and r
       const follow = () => { const hash = window.location.hash.slice(1); if (mine() && hash && hash !== props.link) trame.trigger("open", [hash]); };
