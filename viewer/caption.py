@@ -32,6 +32,11 @@ def shown(field, value, scene, say):
     return several(value)
 
 
+def unit_of(field):
+    """A field's unit as a person reads it: none for a length, since no scene says what its unit is."""
+    return "" if field.unit == "m" else field.unit
+
+
 def applies(field, value):
     """Whether a field means anything at its event.
 

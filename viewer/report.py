@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tracer.testing.errorbars import NO_ERROR
-from viewer.caption import applies, caption, shown, why_dead
+from viewer.caption import applies, caption, shown, unit_of, why_dead
 from viewer.understanding.waterfall import bar_name, waterfall
 from viewer.understanding.why import why
 from viewer.words import Speaker
@@ -85,7 +85,7 @@ def _print_field(field, value, meaning, scene, say, console):
     line.append(f"{field.name:<17}", style="green")
     said = shown(field, value, scene, say)
     line.append(said + " " * max(1, 39 - cell_len(said)))
-    line.append(f"{field.unit:<9}")
+    line.append(f"{unit_of(field):<9}")
     line.append(meaning, style="dim")
     line.rstrip()
     console.print(line)

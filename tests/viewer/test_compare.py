@@ -1,6 +1,7 @@
 """Compare: the twin of a pixel, the maps of two pictures, and what may be compared with."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import tracer
 from lessons.zoo import planted
 from tracer.testing import compare
 from viewer import app
-from viewer.comparing import maps, rival
+from viewer.comparing import first, maps, rival
 from viewer.comparing.comparer import beside, desk_of
 from viewer.comparing.twins import PixelTwin
 from viewer.pictured import serve_picture
@@ -176,3 +177,41 @@ def test_what_cannot_be_compared_with_is_one_clear_line():
     ran = castray("view", "cornell_unit", "--no-browser", "--compare", "Z99", timeout=60)
     assert ran.returncode == 2 and ran.stdout == ""
     assert len(ran.stderr.splitlines()) == 1 and "Z99" in ran.stderr
+
+
+def edge_and_wall(noise=0.0):
+    """Two pictures from the same random numbers: in b a wall is darker, and along a lamp's edge a sample of a
+    pixel in three misses the lamp."""
+    chance = np.random.default_rng(1)
+    a = np.full((24, 24, 3), 0.2) + noise * chance.standard_normal((24, 24, 1))
+    b = a.copy()
+    b[12:, 4:10] -= 0.05
+    b[2, ::3] += 3.0
+    b[3, 1::3] -= 3.0
+    return SimpleNamespace(rgb=a), SimpleNamespace(rgb=b)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_the_pixel_to_look_at_first_differs_as_its_surroundings_do(noise):
+    a, b = edge_and_wall(noise)
+    verdict = compare(a, b)
+    assert verdict.errors.worst[1] in (2, 3)  # the largest difference is one sample on the lamp's edge
+    x, y = first.pixel(a, b, verdict, same_numbers=True)
+    assert 4 <= x < 10 and 12 <= y
+
+
+def test_where_only_single_pixels_differ_the_largest_difference_is_looked_at():
+    a, b = edge_and_wall()
+    b.rgb[12:] = a.rgb[12:]
+    verdict = compare(a, b)
+    assert first.pixel(a, b, verdict, same_numbers=True) == verdict.errors.worst[:2]
+    tiny = [SimpleNamespace(rgb=np.full((1, 2, 3), value)) for value in (0.1, 0.4)]
+    assert first.pixel(*tiny, compare(*tiny), same_numbers=True) in ((0, 0), (1, 0))
+
+
+def test_of_pictures_of_other_numbers_the_surroundings_that_are_furthest_off_are_looked_at(scene):
+    other = replace(SETTINGS, seed=1, bug="D10", spp=16)
+    a, b = tracer.render(scene, replace(SETTINGS, spp=16)), tracer.render(scene, other, steps=planted(other))
+    verdict = compare(a, b)
+    assert verdict.z.p_bias < verdict.z.alpha
+    assert first.pixel(a, b, verdict, same_numbers=False) == verdict.z.centre[:2]

@@ -3,12 +3,18 @@
 import io
 import json
 from contextlib import redirect_stdout
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import tracer
+from lessons.zoo import planted
+from tracer import twin
+from tracer.testing import compare
+from tracer.trace import gather
 from viewer.cli import main
+from viewer.comparing import first
 
 pytestmark = pytest.mark.browser
 
@@ -40,7 +46,9 @@ def pictures(tmp_path_factory):
     a, b = (place / name for name in ("a.exr", "b.exr"))
     for file, words in ((a, ()), (b, ("--bug", "D01"))):
         said("render", "cornell_unit", *SMALL, *words, "-o", file, "--json")
-    return said("diff", a, b, "--json") | {"apart": tracer.read(a).rgb - tracer.read(b).rgb}
+    one, other = tracer.read(a), tracer.read(b)
+    look = first.pixel(one, other, compare(one, other), same_numbers=True)
+    return said("diff", a, b, "--json") | {"apart": one.rgb - other.rgb, "first": look}
 
 
 def test_the_numbers_are_those_of_castray_diff(page, pictures):
@@ -98,16 +106,17 @@ def test_hovering_the_difference_tells_the_numbers_of_the_pixel(page, pictures):
 
 
 def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
-    x, y, _ = pictures["errors"]["worst"]
+    x, y = pictures["first"]
     page.get_by_test_id("compare-worst").click()
     page.locator(f"[data-testid=event-table][data-pixel='{x},{y}']").wait_for()
     page.get_by_test_id("parting-0").click()
     page.locator("[data-testid=parting-0].now").wait_for()
     sample = int(page.get_by_test_id("event-table").get_attribute("data-path"))
-    twins = said("twin", "cornell_unit", *SMALL, "--bug", "D01", "--limit", 1000, "--json")["largest"]
-    there = [p for p in twins if (p["x"], p["y"], p["sample"]) == (x, y, sample)]
-    assert there, "the worst pixel's worst path is not among the 1000 that differ most"
-    mine, its = there[0]["steps"]
+    settings = tracer.Settings(width=SIDE, height=SIDE, spp=4, max_depth=4)
+    scene, wrong = tracer.load("cornell_unit"), replace(settings, bug="D01")
+    twins = [gather(scene, s, planted(s), np.array([y * SIDE + x])).take([sample]) for s in (settings, wrong)]
+    there = twin.compare(*twins, ("a", "b"), most=1).largest[0]
+    mine, its = there.steps
     page.keyboard.press("Home")
     page.get_by_test_id("compare-go").click()
     page.locator(f"[data-testid=row-{mine}][data-now=true]").wait_for()
@@ -120,7 +129,7 @@ def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
     assert "parts" in page.get_by_test_id(f"twin-mark-{its}").get_attribute("class")
     assert page.get_by_test_id("legend-twin").is_visible()
     names = page.locator("[data-testid=compare-fields] tbody th").all_inner_texts()
-    assert set(names) == set(there[0]["numbers"])
+    assert set(names) == {number.field.name for number in there.numbers}
 
 
 def test_where_the_pictures_paths_part_is_what_castray_twin_says(page):

@@ -1,7 +1,6 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
 import re
-from dataclasses import fields
 from string import Formatter
 
 import numpy as np
@@ -13,7 +12,7 @@ from lessons.zoo import FAMILIES, ZOO
 from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
 from tracer.settings import Settings
-from viewer.caption import caption, shown, why_dead
+from viewer.caption import caption, shown, unit_of, why_dead
 from viewer.cli import main
 from viewer.equation import formulas
 from viewer.words import LANGUAGES, Speaker, areas, table
@@ -226,3 +225,11 @@ def test_every_setting_has_a_name_and_every_choice_of_it_too(language):
 def test_a_word_that_one_language_lacks_is_seen():
     """The test above can fail."""
     assert names("{a} and {b}") != names("{a}")
+
+
+def test_no_length_is_said_in_a_unit_that_scenes_do_not_have():
+    for language in LANGUAGES:
+        said = {key: words for key, words in table(language).items() if re.search(r"\} m\b", words)}
+        assert said == {}
+    assert {unit_of(field) for kind in KINDS for field in kind.fields} >= {"", "1/sr"}
+    assert "m" not in {unit_of(field) for kind in KINDS for field in kind.fields}

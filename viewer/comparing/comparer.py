@@ -5,7 +5,7 @@ from typing import Any
 
 from tracer.settings import TracerError
 from tracer.testing import compare
-from viewer.comparing import maps, rival, twins
+from viewer.comparing import first, maps, rival, twins
 from viewer.comparing.twins import PixelTwin
 from viewer.render import Painter
 from viewer.worker import Stopped
@@ -21,6 +21,7 @@ class Desk:
     picture: Any = None  # the rival's, as far as it is rendered
     painter: Any = None
     verdict: Any = None  # on both pictures, once each is there
+    first: tuple | None = None  # the pixel (x, y) to look at first
     error: TracerError | None = None
     pixel: tuple | None = None  # the pixel (x, y) that `twin` is of
     twin: PixelTwin | None = None
@@ -162,10 +163,16 @@ class Comparer:
         if desk is not None and mine is not None and desk.picture is not None:
             try:
                 desk.verdict = compare(mine, desk.picture, names=("a", "b"))
+                desk.first = first.pixel(mine, desk.picture, desk.verdict, self._same_numbers(desk))
             except TracerError as error:
                 desk.verdict, desk.error = None, error
         self._cover()
         self.window.show("compare")
+
+    def _same_numbers(self, desk):
+        """Whether both pictures come from castray's own paths and the same random numbers."""
+        beside(self.session)
+        return desk.twin is not None
 
     def _paint(self, desk):
         """Render the rival's picture beside the page."""

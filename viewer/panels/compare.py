@@ -139,8 +139,6 @@ def _pixel(session, desk, say):
 
 def _verdict(desk, say):
     verdict, distance, z = desk.verdict, desk.verdict.errors, desk.verdict.z
-    # with the same random numbers no difference is noise: the largest is the one to look at
-    x, y, _ = verdict.worst if desk.twin is None else distance.worst
     rows = {
         "rmse": short(distance.rmse),
         "rel_mse": short(distance.rel_mse),
@@ -154,7 +152,7 @@ def _verdict(desk, say):
         "said": say(_said(verdict)),
         "rows": [{"name": say(f"compare.{key}"), "value": value} for key, value in rows.items()],
         "exact": diff.as_dict(verdict, ("a", "b")),
-        "worst": [x, y],
+        "worst": list(desk.first),
         "notes": [say.error(note) for note in verdict.notes],
     }
 

@@ -1,7 +1,7 @@
 """Every number of the current event, with its meaning and unit."""
 
 from tracer.recorder import plain
-from viewer.caption import applies, shown
+from viewer.caption import applies, shown, unit_of
 from viewer.numerals import css
 from viewer.panels.panel import Panel
 
@@ -31,7 +31,7 @@ def _row(kind, field, value, scene, say):
         "name": field.name,
         "meaning": say.meaning(kind, field.name),
         "value": shown(field, value, scene, say),
-        "unit": field.unit,
+        "unit": unit_of(field),
         "exact": plain(value, field, scene),
         "colour": css(value) if field.name in COLOURED else "",
     }

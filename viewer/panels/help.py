@@ -4,7 +4,7 @@ from viewer.panels.panel import Panel
 
 # Every key that the page hears, by the words that tell of it: {key: (call, arguments...)}. `beside` picks the
 # pixel that is so far away and `help` opens this dialog: the page does both; all others are calls to the server.
-KEYS = {
+KEYS: dict[str, dict[str, tuple]] = {
     "arrows": {"ArrowLeft": ("go", "previous"), "ArrowRight": ("go", "next")},
     "paths": {"ArrowUp": ("go", "up"), "ArrowDown": ("go", "down")},
     "ends": {"Home": ("go", "first"), "End": ("go", "last")},

@@ -211,7 +211,7 @@
         const unit = (a) => a.map((v) => v / Math.hypot(...a));
         const ahead = unit(sub(eye.focalPoint, eye.position)), side = unit(cross(ahead, eye.viewUp)), up = cross(side, ahead);
         const ray = sub(at, eye.position), depth = dot(ray, ahead), f = height / 2 / Math.tan((eye.viewAngle * Math.PI) / 360);
-        return depth > 0 ? [width / 2 + (f * dot(ray, side)) / depth, height / 2 - (f * dot(ray, up)) / depth] : [-999, -999];
+        return depth > 0 ? [width / 2 + (f * dot(ray, side)) / depth, height / 2 - (f * dot(ray, up)) / depth] : null;
       }
       function watchCamera() {
         frame = requestAnimationFrame(watchCamera);
@@ -225,15 +225,18 @@
         if (!eye.position) return;
         if (aimed !== props.camera) { aimed = props.camera; view.setCamera(props.camera); return; }
         const { clientWidth: width, clientHeight: height } = box.value;
-        const now = JSON.stringify([eye, props.labels, width, height]);
+        const legend = box.value.closest(".stage").querySelector(".marks"), low = height - 12 - (legend ? legend.offsetHeight + 10 : 0);
+        const now = JSON.stringify([eye, props.labels, width, height, low]);
         if (now === last) return;
         last = now;
         const taken = [];
         props.labels.forEach((label, k) => {
           const element = box.value.children[k];
           if (!element) return;
-          let [x, y] = project(eye, label.at, width, height);
-          x = clamp(x, 14, width - 14);
+          const there = project(eye, label.at, width, height);
+          element.hidden = !there; // behind the eye
+          if (!there) return;
+          let [x, y] = [clamp(there[0], 14, width - 14), Math.min(there[1], low)];
           while (taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22)) y += 4;
           taken.push([x, y, element.offsetWidth]);
           element.style.transform = `translate(${x}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;

@@ -59,21 +59,21 @@ def lines(there, scene, say):
     """[(name, words)] of the Ends."""
     start = there.start
 
-    def both(metres):
-        return say("microscope.both", metres=short(metres), ulps=short(metres / start.ulp))
+    def both(length):
+        return say("microscope.both", length=short(length), ulps=short(length / start.ulp))
 
-    yield "ulp", say("microscope.metres", metres=short(start.ulp))
+    yield "ulp", say("microscope.length", length=short(start.ulp))
     yield "point", both(start.point)
     yield "offset", both(start.offset)
     yield "start", both(start.start)
     if start.aside:
         yield "aside", both(start.aside)
     if not np.isnan(start.own):
-        yield "own", say("microscope.metres", metres=f"{start.own:.9g}")
+        yield "own", say("microscope.length", length=f"{start.own:.9g}")
     aim = there.aim
     if aim is None:
         return
-    yield "distance", say("microscope.metres", metres=f"{aim.distance:.9g}")
+    yield "distance", say("microscope.length", length=f"{aim.distance:.9g}")
     if aim.shape >= 0:
         shape = named("shape", aim.shape, scene)
         yield "first", say("microscope.meets", shape=shape, t=f"{aim.t:.9g}", ulps=short(aim.ulps))
