@@ -323,7 +323,7 @@ def test_a_second_tab_takes_over_and_the_first_may_take_back(page, visit, small)
 def test_nothing_is_cut_off(page, size):
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.wait_for_timeout(300)
-    for tab in "event equation ledger why vertex find doctor change what_if help".split():
+    for tab in "event equation ledger why vertex find doctor change what_if".split():
         page.get_by_test_id(f"tab-{tab}").click()
         if tab in ("why", "vertex"):  # filled when they are opened
             page.get_by_test_id(tab).wait_for()

@@ -1,6 +1,7 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
 import re
+from dataclasses import fields
 from string import Formatter
 
 import numpy as np
