@@ -169,7 +169,7 @@ def _begin(window, calls, number):
         if watched.runs == 1:
             show_findings(window)
 
-    window.paint()
+    window.painting.begin()
     if watched is not None:
         watched.start(window.back, shown, lambda: window.show("given"))
     if session.given is not None:
@@ -183,7 +183,7 @@ def _begin(window, calls, number):
 def _end(window):
     """End what works beside the page."""
     shelf = window.session.shelf
-    window.stop_painting()
+    window.painting.stop()
     if "gl" in shelf:
         shelf["gl"].close()
     if "watched" in shelf:

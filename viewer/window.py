@@ -1,4 +1,4 @@
-"""The window on a session: what the page is told, and the picture and the walk that go on by themselves."""
+"""The window on a session: what the page is told, and the walk that goes on by itself."""
 
 import asyncio
 from dataclasses import fields
@@ -8,9 +8,9 @@ import numpy as np
 from tracer.settings import Settings, TracerError
 from viewer.comparing.comparer import beside
 from viewer.hemisphere import Hemisphere
+from viewer.painting import Painting
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
-from viewer.render import COMPARED, Painter
 from viewer.stage import Companion, Stage
 from viewer.traces import here
 from viewer.understanding.lens import SHOWN
@@ -27,8 +27,7 @@ class Window:
     def __init__(self, server, session, say):
         self.server, self.state, self.session, self.say = server, server.state, session, say
         self.stage = Stage(session.scene)
-        self.painter, self.playing, self.rendered, self.loop = None, None, None, None
-        self.followers = []  # told when a picture is begun() and when it has been painted() further
+        self.painting, self.playing, self.loop = Painting(self), None, None
         self.aimed = None  # the vertex whose hemisphere is looked at
         self.tab = None  # that is open on the page, as far as it has said
         self._build()
@@ -91,7 +90,7 @@ class Window:
         if language != self.say.language:
             self.say = Speaker(language)
             self._put_words()
-            self._say_progress()
+            self.painting.say_progress()
             self.refresh("picture")
 
     def refresh(self, level):
@@ -169,13 +168,13 @@ class Window:
         before, against = self.session.scene, self.session.against
         self.pause()
         renewed = self.session.open(link)
-        if renewed or (self.session.against != against and self.gl):
+        if renewed or (self.session.against != against and self.painting.gl):
             if self.session.scene is not before:
                 self.furnish()
                 self.state.rgb = b""
-            self.paint()
+            self.painting.begin()
         else:
-            self._begin()
+            self.painting.tell_begun()
         self.refresh("picture")
 
     def _push_stage(self):
@@ -205,11 +204,11 @@ class Window:
         try:
             self.session.alter(scene, settings)
         except (TracerError, IndexError):
-            self._begin()  # what panels keep of the scene may be gone
+            self.painting.tell_begun()  # what panels keep of the scene may be gone
             raise
         self.stage.refit(self.session.scene)
         self.state.update({"touched": True, "message": ""})
-        self.paint()
+        self.painting.begin()
         self.refresh("picture")
 
     def give(self, given):
@@ -218,7 +217,7 @@ class Window:
         self.session.give(given)
         self.stage.refit(self.session.scene)
         self.state.update({"touched": True, "message": ""})
-        self.paint()
+        self.painting.begin()
         self.refresh("picture")
 
     def furnish(self):
@@ -246,73 +245,3 @@ class Window:
                 self.move(self.session.cursor.next())
         with self.state:
             self.playing, self.state.playing = None, False
-
-    def paint(self):
-        """Begin the picture anew."""
-        self.stop_painting()
-        loop, settings = asyncio.get_running_loop(), self.session.settings
-        size = 12 * settings.width * settings.height
-        if len(self.state.rgb) != size:  # else the picture before stays until there is a new one
-            self.state.rgb = bytes(size)
-        if self.session.given:
-            self.painter = None
-            self._begin()
-            self._painted(self.session.given.picture, settings.spp)
-            return
-        self._tell_progress(0, 1)
-        compared = bool(self.session.against)
-        painter = Painter(self.session.scene, settings, None if compared else self.gl)
-        painter.why = COMPARED if compared and self.gl else ""
-
-        def here(call):
-            """The call made in the loop, from the painter's thread; not of a painter that was replaced."""
-            return lambda *told: loop.call_soon_threadsafe(
-                lambda: call(*told) if painter is self.painter else None
-            )
-
-        self.painter = painter
-        painter.start(here(self._painted), here(self._progress), here(self._failed))
-        self._begin()
-
-    def _begin(self):
-        for follower in self.followers:
-            follower.begun()
-
-    @property
-    def gl(self):
-        """The process that the picture is asked of first, if there is one."""
-        return self.session.shelf.get("gl")
-
-    def stop_painting(self):
-        """Give up the picture that is being rendered, if there is one."""
-        if self.painter:
-            self.painter.stop()
-
-    def _painted(self, picture, spp):
-        self.session.spp_done, self.session.picture = spp, picture
-        self.session.numpy_why = self.painter.why if self.painter else ""
-        complete = spp == self.session.settings.spp
-        with self.state as state:
-            state.rgb = picture.rgb.tobytes()
-            if self.gl:
-                self.show("picture")  # who made it
-            self._tell_progress(None if complete else 0, spp)
-            for follower in self.followers:
-                follower.painted()
-
-    def _progress(self, share, spp):
-        with self.state:
-            self._tell_progress(share, spp)
-
-    def _tell_progress(self, share, spp):
-        """How far the picture is; share None: nothing is being rendered."""
-        self.rendered = None if share is None else {"percent": round(100 * share), "spp": spp}
-        self._say_progress()
-
-    def _say_progress(self):
-        self.state.progress = self.say("progress", **self.rendered) if self.rendered else ""
-
-    def _failed(self, text):
-        with self.state as state:
-            self._tell_progress(None, 0)
-            state.message = self.say.error(text)

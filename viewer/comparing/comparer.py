@@ -70,7 +70,7 @@ class Comparer:
 
     def __init__(self, window, worker):
         self.window, self.session, self.worker, self.view = window, window.session, worker, WIPE
-        window.followers.append(self)
+        window.painting.followers.append(self)
 
     @property
     def desk(self):
@@ -84,8 +84,8 @@ class Comparer:
         before, self.session.against = self.session.desk.pop("compare", None), name
         if before:
             before.close()
-        if self.window.gl:
-            self.window.paint()  # by whom, hangs on whether it is compared
+        if self.window.painting.gl:
+            self.window.painting.begin()  # by whom, hangs on whether it is compared
         else:
             self.begun()
         self.window.refresh("path")
