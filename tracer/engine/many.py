@@ -14,8 +14,9 @@ from tracer.engine import parts, waves
 MOST_PATHS = 1 << 23  # of a task: seconds of work, so that one scheduler has 1000 processes at work
 TASKS_EACH = 16  # that a process gets at least, so that they end together
 AT_ONCE = 3  # tasks under way for each process: one being done, the others on their way
-AHEAD = 12  # tasks for each process that may be done before an earlier one is: a slow worker's results are
-# waited for, and those of the others take memory meanwhile
+# Tasks for each process that may be done before an earlier one is: while a slow worker's result is waited
+# for, those of the others take memory.
+AHEAD = 12
 LOOK = 1.0  # seconds after which Ctrl-C is heard at the latest, and workers are counted where nothing comes
 
 
