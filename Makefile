@@ -9,12 +9,16 @@
 
 PYTHON ?= python3
 RUN := .venv/bin/python -m
+# Two workers that take files in the order of tests/conftest.py.
+SHARED := -n 2 --dist loadfile --no-loadscope-reorder
 
 # Old pip takes the first for the build too, new pip the second.
 export PIP_CONSTRAINT := constraints.txt
 export PIP_BUILD_CONSTRAINT := constraints.txt
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PYTHON
+# Each test starts programs, and each of them would compile castray again.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: run test quick check format seeds accuracy peers lessons bench race doctor-table picture-table false-alarms clean system
 
@@ -24,10 +28,10 @@ run: .venv/.run
 test: .venv/.dev system
 	@# Those that hold a clock run by themselves (5: there are none).
 	$(RUN) pytest -m timed || [ $$? -eq 5 ]
-	$(RUN) pytest -n 2 --dist loadgroup -m "not timed"
+	$(RUN) pytest $(SHARED) -m "not timed"
 
 quick: .venv/.dev
-	$(RUN) pytest -n 2 --dist loadgroup -m "not slow and not browser and not timed"
+	$(RUN) pytest $(SHARED) -m "not slow and not browser and not timed"
 
 check: .venv/.dev
 	$(RUN) ruff format --check .

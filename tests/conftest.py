@@ -1,9 +1,13 @@
 """Fixtures of the whole suite."""
 
 import shutil
+from collections import Counter
 
 import pytest
 import suite
+
+# As many quick tests take about as long as a slow one.
+SLOW = 30
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -27,9 +31,11 @@ def chromium():
     return next(filter(None, map(shutil.which, names)), None) or suite.missing("chromium")
 
 
-@pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
-def pytest_collection_modifyitems(items):
-    """Tests that share a costly fixture (a browser, an installed wheel) stay on one worker, file by file."""
-    for item in items:
-        if item.get_closest_marker("browser") or item.get_closest_marker("slow"):
-            item.add_marker(pytest.mark.xdist_group(item.path.name))
+def pytest_collection_modifyitems(config, items):
+    """Workers take whole files, so that what its tests share is made once; those with most to do go first."""
+    if hasattr(config, "workerinput"):
+        work = Counter()
+        for item in items:
+            long = item.get_closest_marker("slow") or item.get_closest_marker("browser")
+            work[item.path] += SLOW if long else 1
+        items.sort(key=lambda item: (-work[item.path], item.path))

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cases import slow_but
 from spellchecker import SpellChecker
 from suite import ROOT
 
@@ -20,9 +21,13 @@ from lessons.words import MOMENT, PLACEHOLDER, TaskWords, blocks, labels
 from tracer.events import KINDS as EVENTS
 
 ALL = tuple(lessons())
+# Those whose experiments take longest.
+LONG = (5, 8, 14, 15, 19, 21, 22)
+TASKS = [(number, task) for number in ALL for task in lesson(number).tasks]
 each_lesson = pytest.mark.parametrize("number", ALL)
+each_run = pytest.mark.parametrize("number", slow_but(ALL, *(n for n in ALL if n not in LONG)))
 each_task = pytest.mark.parametrize(
-    ("number", "task"), [(number, task) for number in ALL for task in lesson(number).tasks]
+    ("number", "task"), slow_but(TASKS, *(task for task in TASKS if task[0] not in LONG))
 )
 each_moment = pytest.mark.parametrize(
     ("number", "moment"), [(number, moment) for number in ALL for moment in lesson(number).moments]
@@ -36,6 +41,15 @@ INSIDE = re.compile(r"\$\$.*?\$\$(?:\s*\([\w-]+\))?|\$[^$\n]+\$|`[^`]*`|\{\{[^}]
 @cache
 def run(number):
     return Run(lesson(number))
+
+
+@cache
+def checker():
+    """The English dictionary and the words of this course."""
+    found = SpellChecker()
+    own = (ROOT / "tests" / "lessons" / "known_words.txt").read_text(encoding="utf-8").split()
+    found.word_frequency.load_words(own)
+    return found
 
 
 def texts(number, language):
@@ -92,7 +106,7 @@ def test_no_number_stands_in_a_text_that_the_run_should_give(number, language):
         assert not bare, f"{place}: {bare}; fill them in, or allow them in the front matter"
 
 
-@each_lesson
+@each_run
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_every_text_is_filled_in_and_shown_in_the_terminal_and_as_html(number, language):
     for place, text in texts(number, language).items():
@@ -153,12 +167,9 @@ def test_every_displayed_formula_is_computed_by_a_function_and_proved_by_a_test(
 
 @each_lesson
 def test_the_english_is_spelled_right(number):
-    checker = SpellChecker()
-    own = (ROOT / "tests" / "lessons" / "known_words.txt").read_text(encoding="utf-8").split()
-    checker.word_frequency.load_words(own)
     for place, text in {"title": lesson(number).words["en"].title, **texts(number, "en")}.items():
         words = re.findall(r"[a-z]+(?:'[a-z]+)?", INSIDE.sub(" ", text.replace("’", "'")).lower())
-        odd = checker.unknown(word.removesuffix("'s") for word in words if len(word) > 2)
+        odd = checker().unknown(word.removesuffix("'s") for word in words if len(word) > 2)
         assert not odd, f"{place}: {sorted(odd)}; if right, add to tests/lessons/known_words.txt"
 
 

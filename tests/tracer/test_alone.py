@@ -46,7 +46,7 @@ def all_of(settings):
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell", "cornell_glass"))
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
     suite_seed, scene, integrator, precision
 ):
@@ -63,7 +63,7 @@ def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
     assert in_company == [together[lane] for lane in few]
 
 
-@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_neither_wave_nor_order_changes_a_path(suite_seed, scene, integrator, precision):
@@ -86,7 +86,7 @@ def test_neither_wave_nor_order_changes_a_path(suite_seed, scene, integrator, pr
 
 
 @pytest.mark.parametrize("lanes", [1, 50, 1000, 10**6])
-@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("integrator", slow_but(INTEGRATORS, "path"))
 @pytest.mark.parametrize("scene", slow_but(SCENES, "cornell_unit"))
 def test_a_picture_does_not_depend_on_the_size_of_waves(suite_seed, monkeypatch, scene, integrator, lanes):
     side = 12 if lanes > 1 else 4
@@ -132,7 +132,7 @@ def test_a_sample_does_not_depend_on_how_many_there_are(suite_seed, scene):
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell", "cornell_glass"))
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_watching_changes_nothing(suite_seed, scene, integrator, precision):
     settings = square(spp=3, integrator=integrator, precision=precision, seed=suite_seed)
     rendered = tracer.render(loaded(scene), settings).rgb

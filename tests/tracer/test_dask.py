@@ -17,7 +17,7 @@ import tracer
 from tracer import cluster
 from tracer.trace import folder
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("dask")]
+pytestmark = pytest.mark.slow
 
 SETTINGS = tracer.Settings(width=48, height=48, spp=32, max_depth=6)
 OPTIONS = ("--size", "64", "64", "--max-depth", "6")

@@ -13,6 +13,7 @@ from viewer.doctor_report import chance
 from viewer.words import Speaker
 
 
+@pytest.mark.slow
 @pytest.mark.statistical
 def test_what_fresh_data_do_not_show_is_no_finding():
     odd = traced("lamps", spp=8, seed=suite_seed())

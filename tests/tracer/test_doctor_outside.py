@@ -12,8 +12,8 @@ from outside import MISTAKES
 from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
 
-QUICK = ("f-twice", "cosine-of-the-lamp", "towards-the-ray", "roulette-early", "barrel")
-SLOW = ("c++ first-material", "c++ product-of-numbers")
+QUICK = ("f-twice", "roulette-early")
+SLOW = ("cosine-of-the-lamp", "towards-the-ray", "barrel", "c++ first-material", "c++ product-of-numbers")
 
 
 @pytest.mark.parametrize("id", [*QUICK, *(pytest.param(id, marks=pytest.mark.slow) for id in SLOW)])

@@ -9,7 +9,7 @@ from unittest.mock import patch
 import lattice as search
 import numpy as np
 import pytest
-from cases import SCENES, loaded
+from cases import SCENES, loaded, slow_but
 from stats import sidak, uniform
 
 import tracer
@@ -222,7 +222,7 @@ def test_the_first_sample_has_the_independent_sampler_s_numbers(suite_seed, dtyp
 
 
 @pytest.mark.parametrize("replicates", [1, 5])
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", slow_but(SCENES, "cornell_glass"))
 def test_a_path_alone_is_the_path_in_the_wave_and_pixels_add_up(suite_seed, scene, replicates):
     settings = Settings(width=9, height=7, spp=20, seed=suite_seed, sampler="lattice", replicates=replicates)
     scene = loaded(scene)

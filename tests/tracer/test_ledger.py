@@ -7,7 +7,7 @@ import json
 
 import numpy as np
 import pytest
-from cases import INTEGRATORS, SCENES, loaded
+from cases import INTEGRATORS, SCENES, loaded, slow_but
 from suite import castray
 
 import tracer
@@ -81,7 +81,7 @@ def test_many_pixels_are_the_sums_of_their_events(suite_seed, scene, integrator,
 
 @pytest.mark.parametrize("precision", [32, 64])
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("scene", [*SCENES, "coloured_glass"])
+@pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "coloured_glass"))
 def test_a_pixel_is_the_sum_of_its_events(suite_seed, scene, integrator, precision):
     settings = square(18, integrator=integrator, seed=suite_seed, precision=precision)
     adds_up(loaded(scene), settings, some_pixels(3, suite_seed))

@@ -16,7 +16,7 @@ SOURCE = ROOT / "tests" / "cpp" / "castray_box.cpp"
 SIZE, SPP = 32, 4  # of its picture
 STRICT = ("-std=c++11", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror", "-pthread")
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("cpp")]
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="session")

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from cases import slow_but
 from suite import castray
 
 import tracer
@@ -276,7 +277,7 @@ def test_elements_without_end_are_refused(read):
         read('<scene version="3.0.0">' + "<shape>" * 100_000)
 
 
-@pytest.mark.parametrize("name", tracer.built_in_scenes())
+@pytest.mark.parametrize("name", slow_but(tracer.built_in_scenes(), "coloured_glass", "sky", "textures"))
 def test_every_scene_goes_out_and_comes_back_the_same(tmp_path, name):
     scene = tracer.load(name)
     tracer.export(scene, tmp_path / f"{name}.xml")

@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 import pytest
+from cases import slow_but
 
 import tracer
 from lessons import zoo
@@ -109,41 +110,41 @@ def test_a_select_gives_rows(box):
     assert ask(box, "SELECT path FROM paths", 3)["more"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "COPY (SELECT 1) TO 'out.csv'",
-        "COPY paths TO 'rec/out.parquet'",
-        "ATTACH 'other.db'",
-        "PRAGMA database_list",
-        "SET threads = 1",
-        "INSTALL httpfs",
-        "CALL enable_logging('QueryLog')",
-        "CREATE TABLE t AS SELECT 1",
-        "DROP VIEW events",
-        "EXPORT DATABASE 'all'",
-        "EXPLAIN SELECT 1",
-        "SELECT 1; SELECT 2",
-        "depth >= 2; DROP VIEW events",
-        "SELECT * FROM read_csv('{other}')",
-        "SELECT * FROM read_parquet('{other}')",
-        "SELECT * FROM read_text('{other}')",
-        "SELECT * FROM read_blob('{other}')",
-        "SELECT * FROM '{other}'",
-        "SELECT * FROM glob('{folder}/*')",
-        "SELECT * FROM parquet_metadata('{other}')",
-        "SELECT * FROM sniff_csv('{other}')",
-        "SELECT * FROM query('SELECT 1')",
-        "SELECT * FROM duckdb_settings()",
-        "SELECT * FROM enable_logging(storage = 'file', storage_path = '{folder}/log')",
-        "SELECT getenv('HOME')",
-        "SELECT write_log('x')",
-        "SELECT current_setting('home_directory')",
-        "depth IN (SELECT 1 FROM read_text('{other}'))",
-        "1 = 1) UNION SELECT content, 1 FROM read_text('{other}') WHERE (1 = 1",
-        "SELECT other FROM other",
-    ],
-)
+NO_QUERIES = [
+    "COPY (SELECT 1) TO 'out.csv'",
+    "COPY paths TO 'rec/out.parquet'",
+    "ATTACH 'other.db'",
+    "PRAGMA database_list",
+    "SET threads = 1",
+    "INSTALL httpfs",
+    "CALL enable_logging('QueryLog')",
+    "CREATE TABLE t AS SELECT 1",
+    "DROP VIEW events",
+    "EXPORT DATABASE 'all'",
+    "EXPLAIN SELECT 1",
+    "SELECT 1; SELECT 2",
+    "depth >= 2; DROP VIEW events",
+    "SELECT * FROM read_csv('{other}')",
+    "SELECT * FROM read_parquet('{other}')",
+    "SELECT * FROM read_text('{other}')",
+    "SELECT * FROM read_blob('{other}')",
+    "SELECT * FROM '{other}'",
+    "SELECT * FROM glob('{folder}/*')",
+    "SELECT * FROM parquet_metadata('{other}')",
+    "SELECT * FROM sniff_csv('{other}')",
+    "SELECT * FROM query('SELECT 1')",
+    "SELECT * FROM duckdb_settings()",
+    "SELECT * FROM enable_logging(storage = 'file', storage_path = '{folder}/log')",
+    "SELECT getenv('HOME')",
+    "SELECT write_log('x')",
+    "SELECT current_setting('home_directory')",
+    "depth IN (SELECT 1 FROM read_text('{other}'))",
+    "1 = 1) UNION SELECT content, 1 FROM read_text('{other}') WHERE (1 = 1",
+    "SELECT other FROM other",
+]
+
+
+@pytest.mark.parametrize("text", slow_but(NO_QUERIES, *NO_QUERIES[::4]))
 def test_a_query_can_neither_change_nor_read_anything_else(box, tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
     secret = tmp_path / "other.parquet"
@@ -214,6 +215,7 @@ def test_where_only_paths_were_recorded_conditions_are_on_paths(tmp_path):
         ask(path, "pdf < 1")
 
 
+@pytest.mark.slow
 def test_breakpoints_find_what_they_are_for_and_nothing_in_a_right_tracer(box, tmp_path):
     counts = {name: ask(box, condition(name, "events"))["events"] for name in BREAKPOINTS}
     trace = tracer.read_trace(box)
@@ -243,8 +245,8 @@ def spoilt(step, worse):
     ("name", "step", "worse"),
     [
         ("nan", "light_term", lambda c: c * np.float32("nan")),
-        ("negative", "light_term", lambda c: -c),
-        ("self", "visibility", lambda seen: seen & False),
+        pytest.param("negative", "light_term", lambda c: -c, marks=pytest.mark.slow),
+        pytest.param("self", "visibility", lambda seen: seen & False, marks=pytest.mark.slow),
     ],
 )
 def test_a_breakpoint_fires_where_its_mistake_is_made(tmp_path, name, step, worse):

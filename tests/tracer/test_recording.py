@@ -11,6 +11,7 @@ from collections import namedtuple
 
 import numpy as np
 import pytest
+from cases import slow_but
 from suite import ROOT
 
 import tracer
@@ -49,7 +50,7 @@ def digests(path):
 
 
 @pytest.mark.parametrize("level", ["paths", "events"])
-@pytest.mark.parametrize("name", ["cornell_unit", "coloured_glass", "sky"])
+@pytest.mark.parametrize("name", slow_but(("cornell_unit", "coloured_glass", "sky"), "sky"))
 def test_the_picture_of_a_recorded_render_is_the_same(tmp_path, few_a_part, level, name):
     scene, settings = tracer.load(name), tracer.Settings(width=4, height=3, spp=20, max_depth=6)
     plain = tracer.render(scene, settings)
@@ -62,7 +63,7 @@ def test_the_picture_of_a_recorded_render_is_the_same(tmp_path, few_a_part, leve
 
 
 @pytest.mark.parametrize("precision", [32, 64])
-@pytest.mark.parametrize("name", ["cornell_unit", "coloured_glass", "sky", "textures"])
+@pytest.mark.parametrize("name", slow_but(("cornell_unit", "coloured_glass", "sky", "textures"), "sky"))
 def test_a_recording_read_again_is_the_trace(tmp_path, few_a_part, name, precision):
     scene, settings = tracer.load(name), tracer.Settings(precision=precision, **SMALL)
     tracer.record(scene, settings, tmp_path / "rec", "events")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from bare_scenes import DTYPES, scene_of, unit
+from cases import slow_but
 from continuation import PLACES, careless, matrix, rooms
 from lamps_outside import lit_from_outside
 from suite import suite_seed
@@ -61,7 +62,7 @@ def seen(name, place, dtype, inside, n=8000):
 
 @both
 @pytest.mark.parametrize("place", PLACES[:3], ids=lambda place: place.name)
-@pytest.mark.parametrize("name", ["box", "fine", "rectangles", "cube"])
+@pytest.mark.parametrize("name", slow_but(("box", "fine", "rectangles", "cube"), "fine"))
 def test_a_lamp_that_touches_a_wall_is_seen_on_its_own_side_only(name, place, dtype):
     from_inside, from_outside = seen(name, place, dtype, True), seen(name, place, dtype, False)
     assert from_inside.size > 1000 and from_inside.all()

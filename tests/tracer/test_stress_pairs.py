@@ -10,6 +10,7 @@ import lamps
 import numpy as np
 import pytest
 import trimesh
+from cases import slow_but
 from checks import samples
 from materials import MATERIALS
 from stats import mean_and_error, z_limit
@@ -114,7 +115,7 @@ def test_s56_light_samples_twice_too_bright_are_caught(suite_seed, folder, light
 @pytest.mark.statistical
 @both
 @pytest.mark.parametrize("kind", DISTRIBUTIONS)
-@pytest.mark.parametrize("name", ["metal", "glass"])
+@pytest.mark.parametrize("name", slow_but(("metal", "glass"), "glass"))
 def test_s37_the_picture_of_the_smoothest_rough_surface_is_the_mirrors(
     suite_seed, folder, name, kind, precision
 ):

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-@pytest.mark.parametrize("name", slow_but(tracer.built_in_scenes(), "furnace", "cornell_unit"))
+@pytest.mark.parametrize("name", slow_but(tracer.built_in_scenes(), "cornell_unit"))
 def test_s63_both_precisions_walk_the_same_paths(suite_seed, name, integrator):
     if integrator == "walk" and loaded(name).unmeetable:
         return  # refused, with lamps that no ray meets

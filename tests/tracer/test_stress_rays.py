@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from bare_scenes import DTYPES, TURN, going_on, placed, scene_of, unit
+from cases import slow_but
 from continuation import PLACES, box
 from escapes import AIMS, closed_mesh, escapes
 from escapes import PLACES as EMBREE
@@ -103,7 +104,7 @@ def holed(triangles, lane, sums):
 
 @quiet
 @both
-@pytest.mark.parametrize("scale", [1e-6, 1e-3, 1.0, 1e4, 1e8])
+@pytest.mark.parametrize("scale", slow_but((1e-6, 1e-3, 1.0, 1e4, 1e8), 1e8))
 def test_s09_no_triangle_is_met_from_itself(suite_seed, scale, dtype):
     """20 000 rays from 2000 triangles of any shape: none comes back to its own."""
     rng, count, each = np.random.default_rng(suite_seed), 2000, 10

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from cases import loaded
+from cases import loaded, slow_but
 
 import tracer
 from tracer import Settings, TracerError, film
@@ -126,7 +126,7 @@ def sheet_of(results, sheet=None):
     return sheet
 
 
-@pytest.mark.parametrize("tiles", [1, 2, 7])
+@pytest.mark.parametrize("tiles", slow_but((1, 2, 7), 2))
 @both
 def test_s62_tiles_of_any_number_in_any_order_give_the_same_picture(suite_seed, tiles, precision):
     """Blocks of one pixel in order, pixels in any: mean and variance to the last bit."""

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from cases import loaded
+from cases import loaded, slow_but
 from scipy import stats
 
 import tracer
@@ -129,7 +129,10 @@ def test_the_bias_of_a_whole_picture_is_seen_long_before_that_of_a_pixel(suite_s
     assert per_pixel / (whole / side) > 1.3 * side
 
 
-@pytest.mark.parametrize(("bug", "options"), [("E01", {}), ("F01", {"integrator": "direct"})])
+SEEN = [("E01", {}), ("F01", {"integrator": "direct"})]
+
+
+@pytest.mark.parametrize(("bug", "options"), slow_but(SEEN, SEEN[0]))
 def test_a_bug_of_the_zoo_is_seen(suite_seed, bug, options):
     settings = Settings(width=24, height=24, spp=32, seed=suite_seed, **options)
     wrong = tracer.render(loaded("cornell_unit"), settings, steps=zoo.steps(bug))

@@ -48,7 +48,7 @@ def test_a_wrong_one_is_named_with_the_part_that_fails_and_the_command_that_prov
     ("content", "said"),
     [
         ("def cast_ray(scene:\n", "mine.py:1: "),
-        ("import os\nos._exit(7)\n", "ended with code 7"),
+        pytest.param("import os\nos._exit(7)\n", "ended with code 7", marks=pytest.mark.slow),
         ("raise ValueError('<script>')\n", "mine.py:1: in <module>: ValueError"),
     ],
 )
@@ -68,6 +68,7 @@ def test_the_row_says_an_error_without_its_name_and_in_chinese():
     assert report.finding(failed, Speaker("zh")).startswith("它的进程以代码 7 结束")
 
 
+@pytest.mark.slow
 def test_a_tracer_that_hangs_is_ended_and_is_a_row(tmp_path):
     found = row(tmp_path, "hang.py", "while True:\n    print('spam')\n", seconds=1.0)
     assert found.state == FAILED and "not done after 1 s" in found.error
@@ -132,6 +133,7 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_the_command_writes_table_csv_and_page_and_says_1(folder, tmp_path):
     few = ("--size", 6, 6, "--spp", 2)
     written = ("--csv", tmp_path / "t.csv", "--html", tmp_path / "t.html")

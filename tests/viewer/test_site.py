@@ -47,6 +47,7 @@ def test_a_lesson_opens_from_a_file_and_asks_for_nothing(tmp_path, visit):
     assert tab.errors == []
 
 
+@pytest.mark.slow
 def test_solutions_are_on_the_pages_only_where_they_are_asked_for():
     for solutions in (True, False):
         for tag in LANGUAGES:

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from cases import slow_but
 from suite import castray
 
 import tracer
@@ -127,7 +128,7 @@ def strange(scene, settings):
         yield from ((reason, record) for reason in why(record, scene) if reason.strange)
 
 
-@pytest.mark.parametrize("bug", SEEN)
+@pytest.mark.parametrize("bug", slow_but(SEEN, *list(SEEN)[::3]))
 def test_a_mistake_is_a_reason_that_leads_to_its_event(bug):
     scene = tracer.load(zoo.of(bug).scene)
     for reason, record in strange(scene, zoo.of(bug).asked(width=24, height=24, spp=8, bug=bug)):
@@ -227,7 +228,9 @@ def test_what_is_drawn_over_the_vertex_is_what_the_event_recorded():
     assert f[0] == pytest.approx(luminance(event.values["f"]) * event.values["cos"], rel=1e-3)
 
 
-@pytest.mark.parametrize("scene", ["cornell_unit", "materials", "cornell_glass", "smooth_ball"])
+@pytest.mark.parametrize(
+    "scene", slow_but(("cornell_unit", "materials", "cornell_glass", "smooth_ball"), "cornell_unit")
+)
 def test_bounces_of_a_right_tracer_go_where_the_density_says(scene):
     """2048 fixed draws; each count is judged at 5 standard errors, once in a million for a right one."""
     for x, y in ((7, 15), (12, 18), (15, 14)):
@@ -259,7 +262,7 @@ def test_the_terms_behind_f_are_the_event_s_and_head_on_those_of_the_normal():
 
 
 @pytest.mark.parametrize("precision", [32, 64])
-@pytest.mark.parametrize("scene", ["cornell", "materials", "smooth_ball"])
+@pytest.mark.parametrize("scene", slow_but(("cornell", "materials", "smooth_ball"), "cornell"))
 def test_a_ray_starts_off_its_own_surface_by_more_than_its_point_may_be_off_it(scene, precision):
     for x, y in ((7, 15), (12, 18)):
         record = recorded(scene, x, y, spp=4, precision=precision)

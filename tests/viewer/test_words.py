@@ -6,6 +6,7 @@ from string import Formatter
 
 import numpy as np
 import pytest
+from cases import slow_but
 
 import tracer
 from lessons import glossary
@@ -21,7 +22,12 @@ from viewer.words import LANGUAGES, Speaker, areas, table
 SAY = Speaker("en")
 
 
-@pytest.fixture(scope="module", params=["cornell_unit", "cornell_glass", "furnace", "coloured_glass"])
+@pytest.fixture(
+    scope="module",
+    params=slow_but(
+        ("cornell_unit", "cornell_glass", "furnace", "coloured_glass"), "coloured_glass", "furnace"
+    ),
+)
 def pixels(request):
     """A scene, its settings and some recorded pixels."""
     scene = tracer.load(request.param)
