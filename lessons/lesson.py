@@ -13,6 +13,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 
 from lessons.words import Words, split
+from tracer.scene_file.change import parse, plain
 from tracer.settings import TracerError
 
 LANGUAGES = ("en", "zh")
@@ -21,7 +22,8 @@ KINDS = ("number", "choice", "pixel", "path", "event", "bug")
 
 @dataclass(frozen=True)
 class Moment:
-    """A place that the text speaks of. lands: what is to be found there: kind of event and fields by name."""
+    """A place that the text speaks of. lands: what is to be found there: kind of event and fields by name.
+    changes: of the scene's words, {key: value}, as `--set` says them."""
 
     id: str
     scene: str
@@ -31,6 +33,7 @@ class Moment:
     path: int = 0
     event: int = 0
     lands: dict = field(default_factory=dict)
+    changes: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ class Lesson:
     @cached_property
     def moments(self):
         """id -> Moment. Scene, pixel and path that one leaves out are those of `start`; settings are added to
-        the lesson's."""
+        the lesson's. TracerError where a change of the scene is none."""
         start = self.front["moment"]["start"]
         kept = {k: start[k] for k in ("scene", "x", "y", "path") if k in start}
         return {name: self._moment(name, kept | said) for name, said in self.front["moment"].items()}
@@ -120,7 +123,8 @@ class Lesson:
     def _moment(self, name, said):
         settings = self.front.get("settings", {}) | said.get("settings", {})
         place = {k: said[k] for k in ("x", "y", "path", "event", "lands") if k in said}
-        return Moment(name, said.get("scene", self.front["scene"]), settings, **place)
+        changes = plain(parse(said.get("set", ())))
+        return Moment(name, said.get("scene", self.front["scene"]), settings, **place, changes=changes)
 
     @cached_property
     def formulas(self):

@@ -12,6 +12,7 @@ from lessons.words import PLACEHOLDER
 from lessons.zoo import planted
 from tracer.engine import waves
 from tracer.integrator.wave import Wave
+from tracer.scene_file.change import changed, written
 from tracer.settings import Settings, TracerError
 
 PLACE = ("x", "y", "path", "event")
@@ -22,7 +23,7 @@ class Run:
 
     def __init__(self, lesson):
         self.lesson = lesson
-        self._scenes, self._records = {}, {}
+        self._scenes, self._changed, self._records = {}, {}, {}
 
     @cached_property
     def values(self):
@@ -42,17 +43,25 @@ class Run:
             self._scenes[name] = tracer.load(name)
         return self._scenes[name]
 
+    def scene_of(self, moment="start"):
+        """The scene of a moment, with what the moment says differently."""
+        at = self.lesson.moments[moment]
+        key = at.scene, written(at.changes)
+        if key not in self._changed:
+            scene = self.scene(at.scene)
+            self._changed[key] = changed(scene, at.changes) if at.changes else scene
+        return self._changed[key]
+
     def settings(self, moment="start"):
         """The Settings of a moment, the picture's size included."""
-        moment = self.lesson.moments[moment]
-        return Settings(**moment.settings).at_size_of(self.scene(moment.scene))
+        return Settings(**self.lesson.moments[moment].settings).at_size_of(self.scene_of(moment))
 
     def pixel(self, x, y, moment="start"):
         """The record of a pixel in the picture of a moment."""
-        at, settings = self.lesson.moments[moment], self.settings(moment)
-        key = (x, y, at.scene, settings)
+        scene, settings = self.scene_of(moment), self.settings(moment)
+        key = (x, y, scene, settings)
         if key not in self._records:
-            self._records[key] = tracer.inspect(self.scene(at.scene), settings, x, y, steps=planted(settings))
+            self._records[key] = tracer.inspect(scene, settings, x, y, steps=planted(settings))
         return self._records[key]
 
     def wave(self, moment="start", **differently):
@@ -61,7 +70,7 @@ class Run:
         at, settings = self.lesson.moments[moment], replace(self.settings(moment), **differently)
         x, y = np.full(settings.spp, at.x), np.full(settings.spp, at.y)
         wave = Wave(x, y, np.arange(settings.spp), settings, planted(settings))
-        deque(waves.events(self.scene(at.scene), settings, wave), maxlen=0)
+        deque(waves.events(self.scene_of(moment), settings, wave), maxlen=0)
         return wave
 
     def path(self, moment="start"):
@@ -73,7 +82,7 @@ class Run:
         """The event of a moment as plain values, with its kind, step and depth; IndexError if the path is
         shorter."""
         at = self.lesson.moments[moment]
-        prepared = self.scene(at.scene).at(self.settings(moment))
+        prepared = self.scene_of(moment).at(self.settings(moment))
         return self.path(moment).events[at.event].as_dict(prepared)
 
     def fill(self, text):

@@ -76,7 +76,7 @@ def serve_given(given, port=None, open_browser=True, against=None):
 def serve_lesson(number, port=None, open_browser=True, engine="numpy"):
     """Open the viewer where a lesson begins, the lesson beside it."""
     start = links.of_moment(lesson(number).moments["start"])
-    scene = tracer.load(start.scene)
+    scene = changed(tracer.load(start.scene), start.changes)
     serve(scene, start.settings, port, open_browser, start.place, lesson=number, engine=engine)
 
 

@@ -47,7 +47,7 @@ class Link:
 def of_moment(moment):
     """The Link to a moment of a lesson."""
     place = (moment.x, moment.y, moment.path, moment.event)
-    return Link(moment.scene, Settings(**moment.settings), place)
+    return Link(moment.scene, Settings(**moment.settings), place, moment.changes)
 
 
 def is_link(text):

@@ -24,11 +24,11 @@ def pages(it, solutions):
     """{name: text} of a lesson's pages. solutions: whether they say how its tasks are solved."""
     run = Run(it)
     pictures = {}
-    for name, moment in it.moments.items():
-        key = (moment.scene, run.settings(name))
+    for name in it.moments:
+        key = (run.scene_of(name), run.settings(name))
         if key not in pictures:
             pictures[key] = _picture(run, name)
-    shown = {name: pictures[moment.scene, run.settings(name)] for name, moment in it.moments.items()}
+    shown = {name: pictures[run.scene_of(name), run.settings(name)] for name in it.moments}
     return {file_of(it, tag): _page(run, Speaker(tag), shown, solutions) for tag in LANGUAGES}
 
 
@@ -45,7 +45,7 @@ def _picture(run, moment):
     settings = run.settings(moment)
     if settings.replicates == 1:
         settings = settings.at_spp(min(settings.spp, MOST_SAMPLES))
-    return tracer.render(run.scene(run.lesson.moments[moment].scene), settings, steps=planted(settings)).rgb
+    return tracer.render(run.scene_of(moment), settings, steps=planted(settings)).rgb
 
 
 def _page(run, say, pictures, solutions):
@@ -59,8 +59,7 @@ def _page(run, say, pictures, solutions):
     view, commands = View(say), {}
     for moment, at in it.moments.items():
         path = run.path(moment)
-        scene = run.scene(at.scene)
-        view.add(moment, scene, (at.x, at.y), [path], 0, at.event, pictures[moment])
+        view.add(moment, run.scene_of(moment), (at.x, at.y), [path], 0, at.event, pictures[moment])
         commands[moment] = f"castray view {shlex.quote('#' + of_moment(at).write())}"
     main = (
         f'<article><h1>{escape(title)}</h1><p class="dim">{escape(_about(it, say))}</p>\n{text}\n{_foot(it, say)}</article>'
