@@ -1,36 +1,30 @@
 """The gl engine traces the paths that NumPy traces, and refuses by name what it cannot do."""
 
 import re
-from dataclasses import replace
-from importlib.util import find_spec
+from functools import partial
 
 import numpy as np
 import pytest
 import same_paths
+import shaders
 import suite
-from benchmarks.scenes import box_with
 from cases import loaded
 from meshes import icosphere
-from suite import ROOT, castray, missing
+from shaders import compared, kinds_of_light, small
+from suite import ROOT
 
 import tracer
-from lessons import zoo
-from tracer import Settings, TracerError
-from tracer.engine.gl import device, material_tables, source, tracing
-from tracer.engine.gl.choice import faster
-from tracer.integrator.steps import RIGHT
-from tracer.light.envmap import Envmap
+from tracer import Settings
+from tracer.engine.gl import material_tables, source, tracing
 from tracer.scene import Scene
 from tracer.scene_file.change import changed
 from tracer.shape import Mesh
-from tracer.testing import z_test
 
 FLAT = ("cornell_unit", "furnace")  # nothing but flat diffuse surfaces
 OTHERS = (  # all that come with castray but many_lights, whose shader takes seconds to be ready
     "cornell", "cornell_glass", "mirror_corridor", "glass_slab", "sky", "plates", "materials",
     "coloured_glass", "pool", "textures", "smooth_ball", "white_furnace",
 )  # fmt: skip
-ALPHA = 1e-4  # chance that one of the comparisons below fails though all is right
 
 
 @pytest.fixture(scope="module")
@@ -39,36 +33,10 @@ def gl():
     return suite.gl()
 
 
-def small(**options):
-    return Settings(**{"width": 16, "height": 16, "spp": 32, "max_depth": 8, **options})
-
-
 @pytest.fixture
 def wrong(monkeypatch):
-    """Makes a mistake in the shader: another text in place of one that must be there."""
-
-    def plant(right, other):
-        whole = source.text
-
-        def text(name):
-            return whole(name).replace(right, other)
-
-        assert any(right in path.read_text(encoding="utf-8") for path in SHADERS)
-        monkeypatch.setattr(source, "text", text)
-
-    return plant
-
-
-SHADERS = sorted((ROOT / "tracer" / "engine" / "gl" / "glsl").rglob("*.glsl"))
-
-
-def compared(scene, seed):
-    """The z-test of pictures by both engines, of different random numbers."""
-    pictures = [
-        tracer.render(loaded(scene), small(seed=seed + k), engine=engine)
-        for k, engine in enumerate(("numpy", "gl"))
-    ]
-    return z_test(*pictures, alpha=ALPHA)
+    """Makes a mistake in the shader."""
+    return partial(shaders.plant, monkeypatch)
 
 
 @pytest.mark.slow
@@ -76,7 +44,7 @@ def compared(scene, seed):
 @pytest.mark.parametrize("scene", FLAT + OTHERS)
 def test_both_engines_give_the_same_picture(gl, suite_seed, scene):
     """Two right pictures fail once in 10,000 times, of each scene."""
-    found = compared(scene, suite_seed)
+    found = compared(loaded(scene), suite_seed)
     assert found.same, found.p_value
 
 
@@ -91,7 +59,7 @@ def test_both_engines_give_the_same_picture(gl, suite_seed, scene):
 )
 def test_a_wrong_shader_gives_another_picture(gl, suite_seed, wrong, right, other):
     wrong(right, other)
-    assert not compared("cornell_unit", suite_seed).same
+    assert not compared(loaded("cornell_unit"), suite_seed).same
 
 
 @pytest.mark.slow
@@ -165,66 +133,6 @@ def test_a_gap_between_faces_is_seen(gl, wrong):
     assert tracer.render(room(False), small(spp=4, strategy="bsdf"), engine="gl").rgb.any()
 
 
-def kinds_of_light(**more):
-    """A floor, a ball and a leaf seen through a lens, with every kind of light that a shader knows."""
-    placed = [{"rotate": [1, 0, 0], "angle": 90}, {"translate": [0, 1.2, 0]}]
-    look = {"origin": [0.3, 0.4, 3.2], "target": [0, 0, 0], "up": [0, 1, 0]}
-    area = {"type": "area", "radiance": [5, 4, 3]}
-    return tracer.load_dict(
-        {
-            "type": "scene",
-            "sensor": {
-                "type": "thinlens",
-                "fov": 60,
-                "aperture_radius": 0.1,
-                "focus_distance": 3.0,
-                "to_world": [{"look_at": look}],
-            },
-            "sky": {"type": "constant", "radiance": [0.2, 0.2, 0.3]},
-            "sun": {"type": "directional", "direction": [-0.3, -1, -0.2], "irradiance": [1, 1, 0.8]},
-            "bulb": {"type": "point", "position": [0, 0.9, 0.5], "intensity": [3, 2, 1]},
-            "grey": {"type": "diffuse", "reflectance": [0.6, 0.5, 0.4]},
-            "leafy": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": [0.3, 0.6, 0.3]}},
-            "floor": {
-                "type": "rectangle",
-                "to_world": [{"scale": 2}, {"rotate": [1, 0, 0], "angle": -90}, {"translate": [0, -1, 0]}],
-                "bsdf": "grey",
-            },
-            "leaf": {
-                "type": "rectangle",
-                "to_world": [{"scale": 0.5}, {"translate": [-1, 0, 0]}],
-                "bsdf": "leafy",
-            },
-            "ball": {"type": "sphere", "center": [0.6, -0.4, 0.2], "radius": 0.6, "bsdf": "grey"},
-            "ceiling": {"type": "rectangle", "to_world": [{"scale": 2}, *placed], "bsdf": "grey"},
-            "lamp": {
-                "type": "rectangle",
-                "to_world": [{"scale": 0.4}, *placed],
-                "bsdf": "grey",
-                "emitter": area,
-            },
-            "moon": {
-                "type": "sphere",
-                "center": [-1, 0.8, 0.5],
-                "radius": 0.2,
-                "bsdf": "grey",
-                "emitter": area,
-            },
-            "die": {
-                "type": "cube",
-                "to_world": [
-                    {"scale": 0.1},
-                    {"rotate": [1, 1, 0], "angle": 33},
-                    {"translate": [0.9, 0.8, 0.4]},
-                ],
-                "bsdf": "grey",
-                "emitter": area,
-            },
-            **more,
-        }
-    )
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("light_sampling", ["solid_angle", "area"])
 def test_every_kind_of_light_is_sampled_alike(gl, light_sampling):
@@ -232,91 +140,6 @@ def test_every_kind_of_light_is_sampled_alike(gl, light_sampling):
     assert same_paths.share(scene, settings) >= 0.999
     ours, theirs = (tracer.render(scene, settings, engine=e) for e in ("gl", "numpy"))
     assert np.isclose(ours.rgb, theirs.rgb, rtol=1e-3, atol=1e-5).all(axis=2).mean() > 0.99
-
-
-def with_a_lamp_on_the_floor():
-    standing = {"to_world": [{"scale": 0.4}, {"translate": [0, -0.6, -1]}], "bsdf": "grey"}
-    return kinds_of_light(stand={"type": "rectangle", "emitter": {"type": "area", "radiance": 1}, **standing})
-
-
-def under_a_picture():
-    """A scene lit by a picture of the sky."""
-    made = loaded("sky").definition
-    return Scene(made._replace(emitters=(Envmap("heaven", np.ones((4, 8, 3)), np.eye(3)),), source=None))
-
-
-def with_many_triangles():
-    return box_with(Mesh("ball", *icosphere(3)))
-
-
-@pytest.mark.parametrize(
-    ("scene", "options", "what"),
-    [
-        (under_a_picture, {}, "heaven, a light of kind envmap"),
-        (with_many_triangles, {}, "1292 triangles, faces and spheres (up to 512)"),
-        (with_a_lamp_on_the_floor, {}, "stand, a lamp that touches another shape"),
-        (lambda: loaded("cornell_unit"), {"precision": 64}, "precision 64"),
-    ],
-    ids=["environment", "triangles", "touching", "precision"],
-)
-def test_what_it_cannot_do_is_refused_by_name(scene, options, what):
-    with pytest.raises(TracerError, match=re.escape(what)) as error:
-        tracer.render(scene(), small(**options), engine="gl")
-    assert str(error.value).startswith("engine: gl cannot do ")
-
-
-def test_a_replaced_step_is_refused_with_its_bug():
-    with pytest.raises(TracerError, match="bug E01, which replaces emission_weight"):
-        tracer.render(loaded("furnace"), small(bug="E01"), steps=zoo.steps("E01"), engine="gl")
-
-
-def test_the_command_refuses_in_one_line_and_writes_nothing(tmp_path):
-    done = castray("render", "cornell_unit", "--engine", "gl", "--bug", "E01", "-o", tmp_path / "a.png")
-    assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
-    done = castray(
-        "render", "furnace", "--engine", "gl", "--record", tmp_path / "r", "-o", tmp_path / "a.png"
-    )
-    assert done.returncode == 2 and "gl keeps no paths" in done.stderr
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.fixture
-def afresh():
-    """The context is asked for anew, here and afterwards."""
-    device.device.cache_clear()
-    yield
-    device.device.cache_clear()
-
-
-def test_without_moderngl_it_says_what_to_install(afresh, monkeypatch):
-    monkeypatch.setattr(device, "find_spec", lambda name: None)
-    with pytest.raises(TracerError, match="pip install moderngl"):
-        tracer.render(loaded("furnace"), small(), engine="gl")
-
-
-def test_without_a_driver_it_says_what_the_driver_lacks(afresh, monkeypatch):
-    if find_spec("moderngl") is None:
-        missing("moderngl")
-    import moderngl
-
-    def none(**_):
-        raise RuntimeError("no display\nanywhere")
-
-    monkeypatch.setattr(moderngl, "create_standalone_context", none)
-    with pytest.raises(TracerError, match="a driver with OpenGL 4.3 .*: no display anywhere") as error:
-        tracer.render(loaded("furnace"), small(), engine="gl")
-    assert "\n" not in str(error.value)
-
-
-def test_auto_takes_it_only_where_a_graphics_card_draws(gl, monkeypatch):
-    scene, settings = loaded("cornell_unit"), small()
-    monkeypatch.setattr("tracer.engine.gl.choice.renderer", lambda: "card")
-    for hardware, taken in ((True, "gl"), (False, "numpy")):
-        monkeypatch.setattr("tracer.engine.gl.choice.is_hardware", lambda here=hardware: here)
-        assert faster(scene, settings, RIGHT)[0] == taken
-    monkeypatch.setattr("tracer.engine.gl.choice.is_hardware", lambda: True)
-    engine, why = faster(scene, replace(settings, precision=64), RIGHT)
-    assert (engine, why) == ("numpy", "gl cannot do precision 64")
 
 
 @pytest.mark.slow

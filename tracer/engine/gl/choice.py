@@ -1,7 +1,8 @@
 """Which engine `auto` takes."""
 
-from tracer.engine.gl.device import is_hardware, renderer
-from tracer.engine.gl.refusals import reasons
+from tracer.engine.gl.device import is_hardware, largest, renderer
+from tracer.engine.gl.refusals import of_size, reasons
+from tracer.engine.gl.shape_tables import size
 from tracer.settings import TracerError
 
 
@@ -11,7 +12,8 @@ def faster(scene, settings, steps):
     if against:
         return "numpy", f"gl cannot do {against}"
     try:
-        against = by_processor()
+        found = of_size(size(scene.at(settings)), largest())
+        against = by_processor() or (found and f"gl cannot do {found}")
     except TracerError as error:
         return "numpy", str(error).removeprefix("engine: ")
     return ("numpy", against) if against else ("gl", renderer())

@@ -52,6 +52,11 @@ def renderer():
     return device().info["GL_RENDERER"]
 
 
+def largest():
+    """Most bytes of tables that a shader reads."""
+    return device().info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]
+
+
 def is_hardware():
     """Whether that is more than this machine's processor."""
     name = renderer().lower()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracer.bsdf.roughplastic import NODES
-from tracer.engine.gl.tables import rows
+from tracer.engine.gl.rows import rows
 from tracer.texture.bitmap import FILTERS, WRAPS, Bitmap
 
 ROUGH = ("RoughConductor", "RoughDielectric", "RoughPlastic")

@@ -8,16 +8,24 @@ from tracer.integrator.steps import RIGHT, Steps
 from tracer.settings import TracerError
 from tracer.shape import end
 
-MOST = 512  # triangles, faces and spheres, which are asked one after the other
+_MB = 1 << 20
 
 
 def refuse(scene, settings, steps):
     """TracerError with the first thing that only NumPy does."""
-    found = next(reasons(scene, settings, steps), None)
-    if found:
-        raise TracerError(f"engine: gl cannot do {found}; choose engine numpy")
+    _refuse(next(reasons(scene, settings, steps), None))
     if settings.integrator == "walk" or settings.strategy == "bsdf":
         refuse_unmeetable(scene, settings.integrator)
+
+
+def refuse_size(size, most):
+    """TracerError where a driver takes fewer bytes of tables than a scene has."""
+    _refuse(of_size(size, most))
+
+
+def _refuse(found):
+    if found:
+        raise TracerError(f"engine: gl cannot do {found}; choose engine numpy")
 
 
 def reasons(scene, settings, steps):
@@ -41,12 +49,16 @@ def reasons(scene, settings, steps):
 
 
 def _of_shapes(scene):
-    if len(scene.shape_of) > MOST:
-        yield f"{len(scene.shape_of)} triangles, faces and spheres (up to {MOST})"
-        return
     shining = [k for k, surface in enumerate(scene.definition.surfaces) if surface.radiance is not None]
     faces, _ = tables.faces_of(scene)
     touching = end.beside(faces, scene.shape_of, shining)
     if touching is not None:
         lamp = int(touching.many.argmax())
         yield f"{scene.shapes[scene.shape_of[lamp]].name}, a lamp that touches another shape"
+
+
+def of_size(size, most):
+    """What stands against so many bytes of tables where a driver takes so many at most, or None."""
+    if size <= most:
+        return None
+    return f"{-(-size // _MB)} MB of triangles and tables where the driver takes {most // _MB} MB"

@@ -5,8 +5,8 @@ from functools import lru_cache
 import numpy as np
 
 from tracer import film
-from tracer.engine.gl.device import device
-from tracer.engine.gl.refusals import refuse
+from tracer.engine.gl.device import device, largest
+from tracer.engine.gl.refusals import refuse, refuse_size
 from tracer.engine.gl.source import GROUP, Source
 from tracer.engine.waves import Result
 from tracer.sampler import pack_pixel
@@ -40,8 +40,9 @@ class Tracer:
         self.settings, self._watched = settings, WATCHED if watched else 0
         source = Source(scene, settings, self._watched)
         context = device()
+        refuse_size(source.tables.size, largest())
         context.gc()
-        self._tables = {binding: context.buffer(data) for binding, data in source.buffers.items()}
+        self._tables = context.buffer(source.tables.tobytes())
         self._shader = _compiled(context, source.text)
         self._buffers = {}
 
@@ -61,12 +62,13 @@ class Tracer:
         pixels = np.empty((x.size, 2), np.uint32)
         pixels[:, 0], pixels[:, 1] = pack_pixel(x, y), first
         paths = x.size * samples
-        self._put(0, pixels.tobytes())
-        out = self._room(1, 16 * paths)
+        self._put(1, pixels.tobytes())
+        out = self._room(2, 16 * paths)
         if self._watched:
-            self._room(2, 32 * self._watched * paths)
-            self._room(3, 4 * paths)
-        for binding, table in (self._tables | self._buffers).items():
+            self._room(3, 32 * self._watched * paths)
+            self._room(4, 4 * paths)
+        self._tables.bind_to_storage_buffer(0)
+        for binding, table in self._buffers.items():
             table.bind_to_storage_buffer(binding)
         self._say(seed=self.settings.seed, paths=paths, samples=samples)
         self._shader.run(-(-paths // GROUP))
@@ -74,9 +76,9 @@ class Tracer:
 
     def vertices(self, paths):
         """What the last call kept of its paths: (number (N, 5, 4) int32, p (N, 5, 3), end (N,))."""
-        kept = np.frombuffer(self._buffers[2].read(), [("number", "4i4"), ("p", "4f4")])
+        kept = np.frombuffer(self._buffers[3].read(), [("number", "4i4"), ("p", "4f4")])
         kept = kept[: paths * WATCHED].reshape(-1, WATCHED)
-        ends = np.frombuffer(self._buffers[3].read(), np.int32)[:paths]
+        ends = np.frombuffer(self._buffers[4].read(), np.int32)[:paths]
         return kept["number"], kept["p"][..., :3], ends
 
     def _say(self, **numbers):

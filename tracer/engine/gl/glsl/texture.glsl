@@ -8,14 +8,18 @@ struct Texture {
     vec4 v;
 };
 
+Chart charts_at(int k);
+Texture textures_at(int k);
+vec4 texels_at(int k);
+
 #define NEAREST 1
 #define REPEAT 0
 #define MIRROR 1
 
 vec2 surface_uv(Hit hit)
 {
-    Chart chart = charts[hit.primitive];
-    Surface s = surfaces[hit.primitive];
+    Chart chart = charts_at(hit.primitive);
+    Surface s = surfaces_at(hit.primitive);
     if (s.number.x != SPHERE) {
         vec3 away = hit.p - chart.a.xyz;
         return vec2(chart.a.w + dot(chart.b.xyz, away), chart.b.w + dot(chart.c.xyz, away));
@@ -39,7 +43,7 @@ int wrapped(float k, int size, int mode)
 vec3 texel(Texture t, float column, float row)
 {
     int place = wrapped(row, t.number.y, t.number.w) * t.number.x + wrapped(column, t.number.x, t.number.w);
-    return texels[int(t.u.w) + place].rgb;
+    return texels_at(int(t.u.w) + place).rgb;
 }
 
 vec3 bitmap_at(Texture t, vec2 uv)
@@ -58,7 +62,7 @@ vec3 bitmap_at(Texture t, vec2 uv)
 vec3 checkerboard_at(Texture t, vec2 uv)
 {
     bvec2 past = greaterThan(uv - floor(uv), vec2(0.5));
-    return texels[int(t.u.w) + (past.x == past.y ? 0 : 1)].rgb;
+    return texels_at(int(t.u.w) + (past.x == past.y ? 0 : 1)).rgb;
 }
 
 vec3 texture_at(Texture t, vec2 uv)
@@ -75,10 +79,10 @@ Material painted(Hit hit)
         return m;
     vec2 uv = surface_uv(hit);
     if (m.painted.x >= 0)
-        m.a.rgb = texture_at(textures[m.painted.x], uv);
+        m.a.rgb = texture_at(textures_at(m.painted.x), uv);
     if (m.painted.y >= 0)
-        m.b.rgb = texture_at(textures[m.painted.y], uv);
+        m.b.rgb = texture_at(textures_at(m.painted.y), uv);
     if (m.painted.z >= 0)
-        m.c.rgb = texture_at(textures[m.painted.z], uv);
+        m.c.rgb = texture_at(textures_at(m.painted.z), uv);
     return m;
 }

@@ -12,43 +12,40 @@ struct Vertex {
     vec4 p;
 };
 
-layout(std430, binding = 2) buffer Vertices { Vertex vertices[]; };
-layout(std430, binding = 3) buffer Ends { int ends[]; };
+Vertex kept[WATCHED];
+int reason_of_end;
 
-uint watched;
-
-void begin_path(uint path)
+void begin_path()
 {
-    watched = path;
-    for (uint k = 0u; k < WATCHED; ++k)
-        vertices[path * WATCHED + k] = Vertex(ivec4(-1, 0, 0, 0), vec4(0.0));
+    for (int k = 0; k < WATCHED; ++k)
+        kept[k] = Vertex(ivec4(-1, 0, 0, 0), vec4(0.0));
 }
 
 void seen_vertex(int depth, int primitive, vec3 p)
 {
     if (depth < WATCHED)
-        vertices[watched * WATCHED + uint(depth)] = Vertex(ivec4(primitive, 0, 0, 1), vec4(p, 1.0));
+        kept[depth] = Vertex(ivec4(primitive, 0, 0, 1), vec4(p, 1.0));
 }
 
 void seen_light(int depth, bool visible)
 {
     if (depth < WATCHED)
-        vertices[watched * WATCHED + uint(depth)].number.z = visible ? 2 : 1;
+        kept[depth].number.z = visible ? 2 : 1;
 }
 
 void seen_bounce(int depth, int lobe)
 {
     if (depth < WATCHED)
-        vertices[watched * WATCHED + uint(depth)].number.y = lobe;
+        kept[depth].number.y = lobe;
 }
 
 vec3 end(int reason, vec3 L)
 {
-    ends[watched] = reason;
+    reason_of_end = reason;
     return L;
 }
 #else
-void begin_path(uint path) {}
+void begin_path() {}
 void seen_vertex(int depth, int primitive, vec3 p) {}
 void seen_light(int depth, bool visible) {}
 void seen_bounce(int depth, int lobe) {}

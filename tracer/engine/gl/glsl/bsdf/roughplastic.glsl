@@ -1,6 +1,8 @@
 // A diffuse base under a rough clear coat: the twin of tracer/bsdf/roughplastic.py. a: diffuse reflectance and eta,
 // b: specular reflectance and inside, c: alpha, out, whether it is nonlinear, where its part of `through` begins.
 
+float through_at(int k);
+
 Facets roughplastic_facets(Material m) { return Facets(vec2(m.c.x), m.number.w != 0); }
 
 // T, between the nodes of its table.
@@ -8,7 +10,7 @@ float roughplastic_through(Material m, float cos)
 {
     float x = sqrt(clamp(cos, 0.0, 1.0)) * (NODES - 1.0);
     int k = min(int(x), int(NODES) - 2), first = int(m.c.w);
-    float low = through[first + k], high = through[first + k + 1];
+    float low = through_at(first + k), high = through_at(first + k + 1);
     return low + (x - float(k)) * (high - low);
 }
 

@@ -8,6 +8,8 @@ struct Material {
     ivec4 painted;  // number of the texture in the place of the colour of a, b, c; -1 for none
 };
 
+Material materials_at(int k);
+
 #define ONE_SIDED 1
 #define BLACK 2
 #define DELTA 4

@@ -84,7 +84,7 @@ vec3 trace(uint pixel, uint number, inout uint rays)
         // Le: the surface itself shines, weighted against a light sample that would have found it
 #if FACES
         if (hit.face >= 0 && dot(hit.ng, hit.wo) > 0.0) {
-            Face face = faces[hit.face];
+            Face face = faces_at(hit.face);
             float pdf_light = area_pdf(face, vertex, hit.p, hit.ng);
             L += beta * face.Le.rgb * emission_weight(certain, pdf_bsdf, pdf_light);
         }

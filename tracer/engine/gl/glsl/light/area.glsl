@@ -1,9 +1,5 @@
 // Surfaces that shine: the twin of tracer/light/area.py.
 
-#define QUAD 0
-#define TRIANGLE 1
-#define SPHERE 2
-
 #define AREA 0
 #define SOLID_ANGLE 1
 #define CONE 2
@@ -16,6 +12,8 @@ struct Face {
     vec4 n;        // normal, or +1 or -1 of a sphere; probability of the face
     vec4 Le;       // radiance; how far a point may be off the face
 };
+
+Face faces_at(int k);
 
 Seen face_seen(Face face, vec3 p)
 {

@@ -1,11 +1,18 @@
 // All lights as one, chosen by power: the twin of tracer/light/table.py.
 
+float cdf_at(int k);
+
 int chosen(float u)
 {
-    int entry = 0;
-    while (entry < ENTRIES - 1 && cdf[entry] <= u)
-        ++entry;
-    return entry;
+    int low = 0, high = ENTRIES - 1;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (cdf_at(middle) <= u)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 LightSample sample_light(vec3 p, vec3 u)
@@ -13,11 +20,11 @@ LightSample sample_light(vec3 p, vec3 u)
     int entry = chosen(u.x);
 #if ELSEWHERE
     if (entry >= FACES) {
-        Elsewhere light = elsewhere[entry - FACES];
+        Elsewhere light = elsewhere_at(entry - FACES);
         int kind = light.number.x;
         return kind == POINT ? point_sample(light, p)
             : kind == DIRECTIONAL ? directional_sample(light, p) : constant_sample(light, p, u.yz);
     }
 #endif
-    return area_sample(faces[entry], p, u.yz);
+    return area_sample(faces_at(entry), p, u.yz);
 }

@@ -1,7 +1,16 @@
 // A sphere: the twin of tracer/shape/sphere.py.
 
-void meet_sphere(Ray r, inout Near near, int primitive, vec4 ball)
+struct Ball {
+    ivec4 number;  // its primitive; whether it may hide a lamp
+    vec4 place;    // centre and radius
+};
+
+Ball balls_at(int k);
+
+void meet_sphere(Ray r, inout Near near, Ball sphere)
 {
+    int primitive = sphere.number.x;
+    vec4 ball = sphere.place;
     vec3 oc = r.o - ball.xyz;
     float b = dot(oc, r.d), t;
     if (primitive == r.target)

@@ -1,0 +1,27 @@
+// One invocation for each path: the twin of fragment/main.glsl.
+
+layout(local_size_x = GROUP) in;
+
+uniform uint paths;
+
+layout(std430, binding = 1) readonly buffer Pixels { uvec2 pixels[]; };      // packed pixel, first sample
+layout(std430, binding = 2) writeonly buffer Radiance { vec4 radiance[]; };  // and the number of rays
+#if WATCHED
+layout(std430, binding = 3) writeonly buffer Vertices { Vertex vertices[]; };
+layout(std430, binding = 4) writeonly buffer Ends { int ends[]; };
+#endif
+
+uvec2 pixel_at(uint k) { return pixels[k]; }
+
+void main()
+{
+    uint path = gl_GlobalInvocationID.x;
+    if (path >= paths)
+        return;
+    radiance[path] = traced(path);
+#if WATCHED
+    for (int k = 0; k < WATCHED; ++k)
+        vertices[path * uint(WATCHED) + uint(k)] = kept[k];
+    ends[path] = reason_of_end;
+#endif
+}
