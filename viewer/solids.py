@@ -3,6 +3,8 @@
 Every function gives (points (P, 3), faces (F, 3)); `merge` puts several together.
 """
 
+from functools import cache
+
 import numpy as np
 
 GOLDEN = (1 + 5**0.5) / 2
@@ -42,38 +44,43 @@ def merge(*parts):
 
 def balls(centres, radius):
     """A small ball around each centre (N, 3)."""
-    return merge(*((ICOSAHEDRON * radius + c, ICOSAHEDRON_FACES) for c in np.reshape(centres, (-1, 3))))
+    return _copies(np.reshape(centres, (-1, 1, 3)) + radius * ICOSAHEDRON, ICOSAHEDRON_FACES)
 
 
 def rods(starts, ends, radius, tip=None, sides=7):
-    """A straight rod from each start to its end; tip is the radius at the end (0 makes a cone)."""
+    """A straight rod from each start to its end; tip is the radius at the end (0 makes a cone). None where
+    the two are one point."""
     starts, ends = np.reshape(starts, (-1, 3)), np.reshape(ends, (-1, 3))
-    return merge(
-        *(
-            _rod(a, b, radius, radius if tip is None else tip, sides)
-            for a, b in zip(starts, ends, strict=True)
-        )
-    )
+    length = np.linalg.norm(ends - starts, axis=1)
+    starts, ends, length = (values[length > 0] for values in (starts, ends, length))
+    ring = _rings((ends - starts) / length[:, None], sides)
+    foot, head = starts[:, None], ends[:, None]
+    points = [foot + radius * ring, head + (radius if tip is None else tip) * ring, foot, head]
+    return _copies(np.concatenate(points, axis=1), _rod_faces(sides))
 
 
-def _rod(start, end, radius, tip, sides):
-    axis = end - start
-    length = np.linalg.norm(axis)
-    if not length > 0:
-        return EMPTY
-    axis = axis / length
-    helper = np.eye(3)[np.argmin(np.abs(axis))]
-    u = np.cross(axis, helper)
-    u /= np.linalg.norm(u)
-    v = np.cross(axis, u)
+def _rings(axes, sides):
+    """Unit vectors (N, sides, 3) around each of some axes (N, 3)."""
+    helper = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    u = np.cross(axes, helper)
+    u /= np.linalg.norm(u, axis=1)[:, None]
     angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)[:, None]
-    ring = np.cos(angle) * u + np.sin(angle) * v
-    points = np.concatenate([start + radius * ring, end + tip * ring, [start, end]])
+    return np.cos(angle) * u[:, None] + np.sin(angle) * np.cross(axes, u)[:, None]
+
+
+@cache
+def _rod_faces(sides):
     k = np.arange(sides)
     j = (k + 1) % sides
     foot, head = np.full(sides, 2 * sides), np.full(sides, 2 * sides + 1)
     faces = [(k, j, j + sides), (k, j + sides, k + sides), (j, k, foot), (k + sides, j + sides, head)]
-    return points, np.concatenate([np.stack(f, axis=1) for f in faces])
+    return np.concatenate([np.stack(f, axis=1) for f in faces])
+
+
+def _copies(points, faces):
+    """The solid of N copies: points (N, K, 3), and the faces that each of them has."""
+    starts = points.shape[1] * np.arange(len(points))
+    return points.reshape(-1, 3), (starts[:, None, None] + faces).reshape(-1, 3)
 
 
 def arrow(start, direction, length, radius):
