@@ -14,6 +14,7 @@ from viewer.history import History
 from viewer.link import Link
 from viewer.numerals import luminance
 from viewer.replay import inspect_command
+from viewer.understanding.waterfall import waterfall
 
 KEPT = (
     "scene", "settings", "spp_done", "picture", "numpy_why", "recording", "given", "overlay", "record",
@@ -45,6 +46,7 @@ class Session:
         self.rivals, self.against = {}, ""  # what may be compared with beside tracers, by name; what is
         self.adopt(scene, settings)
         self.at_start = self.settings
+        self._fall = None, ()  # a record and its waterfall
         self.recording = recording
 
     def adopt(self, scene, settings):
@@ -179,6 +181,13 @@ class Session:
     def path(self):
         """The recorded path the reader stands on."""
         return self.record.paths[self.cursor.path]
+
+    @property
+    def waterfall(self):
+        """The Bars of the picked pixel; worked out once, since every step to another path asks for them."""
+        if self._fall[0] is not self.record:
+            self._fall = self.record, waterfall(self.record)
+        return self._fall[1]
 
     @property
     def event(self):

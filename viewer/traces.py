@@ -16,10 +16,13 @@ class Strokes:
 
     def __init__(self, size):
         self.size, self.thin, self.thick = size, 0.0016 * size, 0.0032 * size
+        self._of, self._lines = None, []  # the paths whose corners are known already
 
     def others(self, paths, selected):
         """The faint paths, as line segments."""
-        shown = [vertices(p, self.size) for k, p in enumerate(paths) if k != selected][:MOST_OTHERS]
+        if paths is not self._of:
+            self._of, self._lines = paths, [vertices(p, self.size) for p in paths[: MOST_OTHERS + 1]]
+        shown = [line for k, line in enumerate(self._lines) if k != selected][:MOST_OTHERS]
         points = np.concatenate([np.zeros((0, 3)), *shown])
         starts, ends, at = [], [], 0
         for line in shown:

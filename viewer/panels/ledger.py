@@ -5,7 +5,7 @@ import numpy as np
 from tracer.recorder import number
 from viewer.numerals import css, luminance, several
 from viewer.panels.panel import Panel
-from viewer.understanding.waterfall import bar_name, carried, waterfall
+from viewer.understanding.waterfall import bar_name, carried
 
 TEMPLATE = """
 <div class="ledger" data-testid="ledger">
@@ -35,7 +35,7 @@ LEAST = 0.6  # percent of the track that a bar takes at least, to be seen
 def show(session, say):
     """Both sums, with the check that they are exact."""
     record, path = session.record, session.path
-    bars = waterfall(record)
+    bars = session.waterfall
     shown, zero = _drawn(bars, say)
     pixel = [float(sum(bar.value[c] for bar in bars)) for c in range(3)]
     pixel_adds_up = bool(np.array_equal(pixel, record.value.astype(float)))
