@@ -24,6 +24,7 @@ from benchmarks.memory import memory_of, slope  # noqa: E402
 from benchmarks.paper import page as paper  # noqa: E402
 from benchmarks.paper import section_text, sections_of, stamp  # noqa: E402
 from benchmarks.section import table  # noqa: E402
+from benchmarks.seeing import crowds, on_page, picks, queries, steps, turns  # noqa: E402
 from racing import RACE  # noqa: E402
 from talking import cookie_of, talk  # noqa: E402
 
@@ -41,141 +42,6 @@ LIMITS = {
 ON_A_CARD = {"the same with --engine gl": 100}  # where no processor draws
 MEGABYTES = 10.0  # that a thousand picks may leave behind
 PICKS = 1000
-
-# In the page: how often the 3D canvas was drawn, what it shows as one number, where the reader stands.
-COUNT = """
-window.pictures = 0;
-const clear = WebGL2RenderingContext.prototype.clear;
-WebGL2RenderingContext.prototype.clear = function (...mask) {
-  window.pictures++;
-  return clear.apply(this, mask);
-};
-"""
-WATCH = """
-() => {
-  const small = Object.assign(document.createElement("canvas"), {width: 160, height: 120});
-  const g = small.getContext("2d", {willReadFrequently: true});
-  window.drawn = () => {
-    g.clearRect(0, 0, 160, 120);
-    g.drawImage(document.querySelector(".stage canvas"), 0, 0, 160, 120);
-    const d = g.getImageData(0, 0, 160, 120).data;
-    let sum = 0;
-    for (let i = 0; i < d.length; i++) sum = (sum * 31 + d[i]) | 0;
-    return sum;
-  };
-  window.where = () => {
-    const table = document.querySelector("[data-testid=event-table]");
-    const now = table.querySelector("[data-now=true]");
-    return [table.dataset.pixel, table.dataset.path, now && now.dataset.testid].join(" ");
-  };
-  const begin = () => { window.began = performance.now(); };
-  for (const kind of ["pointerdown", "keydown"]) window.addEventListener(kind, begin, true);
-}
-"""
-# The time from the last input until both have changed; 0 where that does not happen (nothing new in sight).
-ARM = """
-() => {
-  const picture = window.drawn(), place = window.where(), end = performance.now() + 5000;
-  let seen = window.pictures; // reading the canvas back is dear: only when it has been drawn again
-  window.took = new Promise((resolve) => {
-    const look = () => {
-      const again = window.pictures !== seen && window.where() !== place;
-      if (again) seen = window.pictures;
-      if (again && window.drawn() !== picture) resolve(performance.now() - window.began);
-      else if (performance.now() > end) resolve(0);
-      else requestAnimationFrame(look);
-    };
-    requestAnimationFrame(look);
-  });
-}
-"""
-
-
-def timed(page, act):
-    """Milliseconds from an input to what it changed, drawn."""
-    page.evaluate(ARM)
-    act()
-    took = page.evaluate("() => window.took")
-    page.wait_for_timeout(100)
-    return took
-
-
-def picks(page, rounds):
-    """One time per pick, at pixels spread over the picture."""
-    box = page.locator("[data-testid=picture]").bounding_box()
-    for k in range(rounds):
-        x = box["x"] + box["width"] * (0.15 + 0.7 * (k * 7 % 20) / 20)
-        y = box["y"] + box["height"] * (0.25 + 0.6 * (k * 3 % 20) / 20)
-        page.mouse.move(x, y)
-        yield timed(page, partial(page.mouse.click, x, y))
-
-
-def steps(page, rounds):
-    """One time per step along the path, and back."""
-    page.keyboard.press("Home")
-    page.wait_for_timeout(300)
-    last = int(page.locator("[data-testid=event-table] tbody tr").count()) - 1
-    forward, at = True, 0
-    for _ in range(rounds):
-        forward = at == 0 or (forward and at < last)
-        at += 1 if forward else -1
-        yield timed(page, partial(page.keyboard.press, "ArrowRight" if forward else "ArrowLeft"))
-
-
-# The time from a knob's move until the first picture with the new scene has come and was drawn.
-TURN = """
-([key, value]) => new Promise((resolve) => {
-  const knob = document.querySelector(`[data-testid="${key}"]`), before = window.trame.state.get("rgb");
-  const began = performance.now();
-  knob.value = value;
-  knob.dispatchEvent(new Event("input"));
-  const look = () => {
-    const came = window.trame.state.get("rgb") !== before;
-    if (came) requestAnimationFrame(() => resolve(performance.now() - began));
-    else requestAnimationFrame(look);
-  };
-  requestAnimationFrame(look);
-})
-"""
-
-
-def turns(page, rounds):
-    """One time per move of the first knob of the scene; the finer pictures of each are waited for."""
-    page.get_by_test_id("tab-change").click()
-    knob = page.locator("input[type=range][data-testid^=change-]").first.get_attribute("data-testid")
-    for k in range(rounds):
-        yield page.evaluate(TURN, [knob, 0.2 + 0.6 * (k * 7 % 20) / 20])
-        page.wait_for_selector("[data-testid=progress]", state="detached", timeout=120_000)
-
-
-# The time from a query's Enter until its own hits have come and were drawn.
-ASK = """
-(text) => new Promise((resolve) => {
-  const began = performance.now();
-  window.trame.trigger("find", [text]);
-  const look = () => {
-    const find = window.trame.state.get("find");
-    const came = find && find.text === text && !find.busy && (find.found || find.error);
-    if (came) requestAnimationFrame(() => resolve(performance.now() - began));
-    else requestAnimationFrame(look);
-  };
-  requestAnimationFrame(look);
-})
-"""
-
-
-def queries(page, rounds):
-    """One time per query, no two alike."""
-    page.get_by_test_id("tab-find").click()
-    page.evaluate(ASK, "depth > 3")  # the first opens the recording
-    for k in range(rounds):
-        yield page.evaluate(ASK, f"depth >= 2 AND pdf < 0.0{k + 1}")
-
-
-def crowds(page, rounds):
-    """One time per turn to the next of very many paths, all drawn anew."""
-    for _ in range(rounds):
-        yield timed(page, partial(page.keyboard.press, "ArrowDown"))
 
 
 def starts(rounds, words):
@@ -197,23 +63,6 @@ def visits(browser, server, rounds):
             page.goto(server.address)
             page.wait_for_selector("html[data-ready]")
             yield 1e3 * (time.perf_counter() - began)
-
-
-def on_page(browser, words, *works):
-    """What each of works(page) gives, of a viewer and a page that are ready and idle."""
-    server = viewers.Server(*words)
-    try:
-        with browser.new_context(viewport={"width": 1500, "height": 900}) as context:
-            page = context.new_page()
-            page.add_init_script(COUNT)
-            page.goto(server.address)
-            page.wait_for_selector("html[data-ready]")
-            page.wait_for_selector("[data-testid=progress]", state="detached", timeout=120_000)
-            page.evaluate(WATCH)
-            page.wait_for_timeout(500)
-            return [list(work(page)) for work in works]
-    finally:
-        server.stop()
 
 
 def recorded(folder, side):

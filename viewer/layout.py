@@ -18,9 +18,6 @@ FRAME = """
   </header>
   <aside class="left">%(left)s</aside>
   <section class="stage" :aria-label="w.stage" data-testid="stage">%(view)s
-    <castray-labels :labels="labels" :camera="camera" view="view"><template #default="{home}">
-      <button class="home" data-testid="home" :aria-label="w.home" :title="w.home" @click="home()"><castray-icon name="home"/></button>
-    </template></castray-labels>
     <ul class="marks" :aria-label="w.legend">
       <li><i class="walked"></i>{{ w.legend_walked }}</li><li><i class="ahead"></i>{{ w.legend_ahead }}</li>
       <li><i class="others"></i>{{ w.legend_others }}</li><li><i class="lit">━●</i>{{ w.legend_lit }}</li>
@@ -41,6 +38,12 @@ FRAME = """
   <div v-if="owner && !mine" class="takeover" role="alertdialog" :aria-label="w.taken" data-testid="taken-over"><div>
     <p>{{ w.taken }}</p><button data-testid="take-back" @click="take()">{{ w.take_back }}</button></div></div>
 </div></template></castray-tab>
+"""
+# in the element of the 3D view, whose scene it draws with
+LABELS = """
+<castray-stage :labels="labels" :camera="camera" :strokes="[...path_strokes, ...event_strokes, ...over_strokes]"><template #default="{home}">
+  <button class="home" data-testid="home" :aria-label="w.home" :title="w.home" @click="home()"><castray-icon name="home"/></button>
+</template></castray-stage>
 """
 TAB = (
     '<button role="tab" :aria-selected="tab === \'{0}\'" :class="{{now: tab === \'{0}\'}}" data-testid="tab-{0}" '

@@ -1,10 +1,9 @@
-"""The 3D view: the scene, the picked pixel's paths and the vectors of the current event, as vtk actors.
+"""The 3D view: the scene's surfaces as vtk actors, the picked pixel's paths and vectors as bytes.
 
-Nothing is rendered here: the browser draws. Every layer keeps its mesh, and new data is copied into it.
+Nothing is rendered here: the browser draws. Surfaces go there by trame-vtk, which has it fetch each array in
+a round trip of its own. What changes at every step is part of the page's state instead, so that words and
+drawing come in one message; vtk only knows the actors it is drawn with.
 """
-
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -14,22 +13,10 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
 from viewer import hemisphere
+from viewer.company import COMPANIONS
 from viewer.solids import EMPTY
 from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint, walls
 from viewer.traces import Strokes
-
-COMPANIONS = ("what_if", "twin")  # paths beside the selected one
-
-
-@dataclass(frozen=True)
-class Companion:
-    """A path drawn beside the selected one, from its event `since` on; word: marks the place `at`, or where
-    its way leaves the other's."""
-
-    path: Any
-    word: str
-    since: int = 0
-    at: list | None = None
 
 
 class Layer:
@@ -50,8 +37,8 @@ class Layer:
         look.SetBackfaceCulling(culled)
         look.SetAmbient(0.65)
         look.SetDiffuse(0.45)
-        self.actor.SetVisibility(False)
         renderer.AddActor(self.actor)
+        self.show(np.zeros((3, 3)), np.array([[0, 1, 2]]))  # of nothing at all the browser makes no actor
 
     def look(self, colour, opacity):
         """Take on a colour."""
@@ -60,21 +47,33 @@ class Layer:
         look.SetOpacity(opacity)
 
     def show(self, points, cells):
-        """Copy new data into the mesh. cells: triangles (F, 3), or line segments (F, 2)."""
+        """Copy new data into the mesh. cells: triangles (F, 3)."""
         self.actor.SetVisibility(len(cells) > 0)
         if not len(cells):
             return
-        self._points = np.ascontiguousarray(points, np.float32)  # vtk only borrows them
-        corners = vtkPoints()
-        corners.SetData(numpy_to_vtk(self._points))
-        width = cells.shape[1]
-        packed = np.column_stack([np.full(len(cells), width), cells]).astype(np.int64).ravel()
         array = vtkCellArray()
-        array.ImportLegacyFormat(numpy_to_vtkIdTypeArray(packed, deep=True))
+        array.ImportLegacyFormat(numpy_to_vtkIdTypeArray(legacy(cells).astype(np.int64), deep=True))
         fresh = vtkPolyData()
-        fresh.SetPoints(corners)
-        (fresh.SetPolys if width == 3 else fresh.SetLines)(array)
+        fresh.SetPoints(_points(points))
+        fresh.SetPolys(array)
         self.mesh.DeepCopy(fresh)
+
+
+def _points(places):
+    """Places (N, 3) as vtk's points."""
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(places, np.float32), deep=True))
+    return points
+
+
+def legacy(cells):
+    """Cells (F, K) as vtk has them: each with its length before it, one after another."""
+    return np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel()
+
+
+def packed(points, cells):
+    """Points and cells, triangles (F, 3) or line segments (F, 2), as bytes: float32 and uint32."""
+    return np.asarray(points, "<f4").tobytes(), legacy(cells).astype("<u4").tobytes()
 
 
 def layer_of(surface, renderer):
@@ -85,18 +84,23 @@ def layer_of(surface, renderer):
 
 
 class Stage:
-    """Everything in the 3D view. window goes to the browser; labels are words at places, drawn in HTML."""
+    """Everything in the 3D view. window goes to the browser; labels are words at places, drawn in HTML.
+
+    strokes: {level: [(number of the actor, *packed), ...]}, of a path, an event, and over its vertex.
+    """
 
     def __init__(self, scene):
         self.renderer = vtkRenderer()
         self.renderer.SetBackground(*BACKGROUND)
         self.window = vtkGenericOpenGLRenderWindow()
         self.window.AddRenderer(self.renderer)
-        self._surfaces, self.layers = [], {}
-        for name, colour in COLOURS.items():
-            self.layers[name] = Layer(self.renderer, colour)
-        self._over = {}  # layers of the hemisphere over the vertex, there from its first showing on
-        self.labels = []
+        self._surfaces, self.labels = [], []
+        self.strokes = {"path": [], "event": [], "over": []}
+        for colour in COLOURS.values():
+            Layer(self.renderer, colour)
+        for name, colour in hemisphere.COLOURS.items():  # before the surfaces, which would hide them
+            lit = name in hemisphere.LIT
+            Layer(self.renderer, colour, hemisphere.OPACITY.get(name, 1.0), lit, culled=lit)
         self._light()
         self.furnish(scene)
 
@@ -112,7 +116,7 @@ class Stage:
         self._bounds = low, high = bounds(scene)
         self.size = float(np.linalg.norm(high - low))
         self._surfaces = [(s, layer_of(s, self.renderer)) for s in surfaces(scene)]
-        self.strokes = Strokes(self.size)
+        self._draws = Strokes(self.size)
         self.camera = viewpoint(scene, low, high)
         self._aim()
 
@@ -143,34 +147,22 @@ class Stage:
         the selected one, {one of COMPANIONS: Companion}; over: the Hemisphere over its vertex."""
         beside = beside or {}
         path = record.paths[cursor.path]
-        drawn = self.strokes.event(path, cursor.event)
         if level != "event":
-            drawn |= self.strokes.path(path) | self.strokes.others(record.paths, cursor.path)
+            drawn = self._draws.path(path) | self._draws.others(record.paths, cursor.path)
             for name in COMPANIONS:
                 there = beside.get(name)
-                drawn[name] = self.strokes.companion(there.path, there.since) if there else EMPTY
-        for name, (points, cells) in drawn.items():
-            self.layers[name].show(points, cells)
-        self.labels = self.strokes.labels(path, cursor.event)
+                drawn[name] = self._draws.companion(there.path, there.since) if there else EMPTY
+            self.strokes["path"] = _numbered(drawn)
+        self.strokes["event"] = _numbered(self._draws.event(path, cursor.event))
+        self.labels = self._draws.labels(path, cursor.event)
         for name, there in beside.items():
-            at = there.at or self.strokes.parting(path, there.path)
+            at = there.at or self._draws.parting(path, there.path)
             self.labels.append({"text": there.word, "layer": name, "at": at})
-        self._show_over(over)
+        self.strokes["over"] = _numbered(over.drawn if over else dict.fromkeys(hemisphere.COLOURS, EMPTY))
+        self.labels += over.labels if over else []
 
-    def _show_over(self, over):
-        """The Hemisphere's layers; None takes them away."""
-        if over is not None and not self._over:
-            self._make_room(hemisphere)
-        for name, layer in self._over.items():
-            layer.show(*(EMPTY if over is None else over.drawn[name]))
-        if over is not None:
-            self.labels += over.labels
 
-    def _make_room(self, drawn):
-        """Layers for what a module has the COLOURS of, before the surfaces, which would hide them."""
-        for _, layer in self._surfaces:
-            self.renderer.RemoveActor(layer.actor)
-        for name, colour in drawn.COLOURS.items():
-            lit = name in drawn.LIT
-            self._over[name] = Layer(self.renderer, colour, drawn.OPACITY.get(name, 1.0), lit, culled=lit)
-        self._surfaces = [(s, layer_of(s, self.renderer)) for s, _ in self._surfaces]
+def _numbered(drawn):
+    """{layer: (points, cells)} as a list of (number of the actor, *packed)."""
+    numbers = {name: k for k, name in enumerate((*COLOURS, *hemisphere.COLOURS))}
+    return [(numbers[name], *packed(points, cells)) for name, (points, cells) in drawn.items()]

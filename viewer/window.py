@@ -6,15 +6,11 @@ from dataclasses import fields
 import numpy as np
 
 from tracer.settings import Settings, TracerError
-from viewer.comparing.comparer import beside
-from viewer.hemisphere import Hemisphere
+from viewer.company import companions, over_vertex
 from viewer.painting import Painting
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
-from viewer.stage import Companion, Stage
-from viewer.traces import here
-from viewer.understanding.lens import SHOWN
-from viewer.understanding.lens import here as lens_here
+from viewer.stage import Stage
 from viewer.words import LANGUAGES, Speaker
 
 PLAY_SECONDS = 0.8
@@ -47,7 +43,7 @@ class Window:
         from trame_vtk.modules.vtk import get_helper
         from trame_vtk.widgets.vtk import VtkLocalView
 
-        from viewer.layout import template
+        from viewer.layout import LABELS, template
 
         server, state = self.server, self.state
         languages = [{"tag": tag, "name": name} for tag, name in LANGUAGES.items()]
@@ -78,6 +74,7 @@ class Window:
         )
         with DivLayout(server):
             view = VtkLocalView(self.stage.window, ref="view", connect_parent=False, trame_server=server)
+            view.add_child(LABELS)
             html.Div(children=[template(view.html)], classes="fill")
         self.whole_stage, self._helper = view.update, get_helper(server)
 
@@ -97,9 +94,8 @@ class Window:
         """Show again what depends on a level or on what follows from it."""
         changed = LEVELS[LEVELS.index(level) :]
         session, cursor = self.session, self.session.cursor
-        companions, over = self._companions(), self._over()
-        self.stage.draw(session.record, cursor, level, companions, over)
-        self._push_stage()
+        beside, over = companions(session, self.say), over_vertex(session, self.stage.size, self.say)
+        self.stage.draw(session.record, cursor, level, beside, over)
         self._aim(over)
         for panel in all_panels():
             if panel.show and panel.level in changed:
@@ -110,27 +106,13 @@ class Window:
                 "path_index": cursor.path,
                 "event_index": cursor.event,
                 "labels": self.stage.labels,
-                "companions": {name: True for name in companions},
+                **{f"{name}_strokes": drawn for name, drawn in self.stage.strokes.items()},
+                "companions": {name: True for name in beside},
                 "over": over and over.legend(self.say),
                 "link": session.link.write(),
                 "header": self._header(),
             }
         )
-
-    def _companions(self):
-        """The paths to be drawn beside the selected one."""
-        there, twin = self.session.supposition, beside(self.session)
-        found = {"what_if": Companion(there.path, self.say("what_if.label"))} if there else {}
-        if twin is not None and twin.parting is not None:
-            since = twin.since
-            at = np.asarray(here(twin.path, since), float).tolist()
-            found["twin"] = Companion(twin.path, self.say("compare.label"), since, at)
-        return found
-
-    def _over(self):
-        """The Hemisphere over the vertex, where it is asked for and there is one."""
-        lens = lens_here(self.session) if self.session.shelf.get(SHOWN) else None
-        return Hemisphere(lens, self.stage.size, self.say) if lens else None
 
     def _aim(self, over):
         """Look at the Hemisphere, when it comes or stands elsewhere; from the start again when it goes."""
@@ -177,8 +159,8 @@ class Window:
             self.painting.tell_begun()
         self.refresh("picture")
 
-    def _push_stage(self):
-        """Send what changed in 3D; the whole is sent when a page asks for the state."""
+    def _push_surfaces(self):
+        """Send what changed of the scene's surfaces; the whole is sent when a page asks for the state."""
         if self.server.protocol:
             changes = self._helper.scene(self.stage.window, new_state=False)
             self.server.protocol.publish("trame.vtk.delta", changes)
@@ -207,6 +189,7 @@ class Window:
             self.painting.tell_begun()  # what panels keep of the scene may be gone
             raise
         self.stage.refit(self.session.scene)
+        self._push_surfaces()
         self.state.update({"touched": True, "message": ""})
         self.painting.begin()
         self.refresh("picture")
@@ -216,6 +199,7 @@ class Window:
         self.pause()
         self.session.give(given)
         self.stage.refit(self.session.scene)
+        self._push_surfaces()
         self.state.update({"touched": True, "message": ""})
         self.painting.begin()
         self.refresh("picture")
@@ -223,6 +207,7 @@ class Window:
     def furnish(self):
         """Show the session's scene in 3D in place of another."""
         self.stage.furnish(self.session.scene)
+        self._push_surfaces()
         self.aimed, self.state.camera = None, self.stage.camera
 
     def play(self):

@@ -12,7 +12,7 @@ from viewer.panels import all_panels
 from viewer.panels.help import KEYS
 from viewer.words import LANGUAGES, table
 
-SCRIPT = (ROOT / "viewer" / "static" / "castray.js").read_text(encoding="utf-8")
+SCRIPT = (ROOT / "viewer" / "static" / "tab.js").read_text(encoding="utf-8")
 
 
 SEEN = """[...document.querySelectorAll("button,input,select,textarea,summary,a[href]")]

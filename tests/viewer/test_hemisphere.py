@@ -11,6 +11,7 @@ from viewer.cursor import Cursor
 from viewer.hemisphere import Hemisphere
 from viewer.numerals import LUMINANCE
 from viewer.stage import Stage
+from viewer.surfaces import COLOURS
 from viewer.understanding import lens
 from viewer.understanding.draws import drawn
 from viewer.understanding.lobes import lobes
@@ -137,26 +138,29 @@ def test_its_labels_and_legend_are_words_of_every_language():
     assert len({over.labels[0]["text"] for over in said.values()}) == len(LANGUAGES)
 
 
-def test_the_stage_has_layers_for_it_only_once_it_was_asked_for_and_before_what_is_seen_through():
+def test_the_stage_draws_it_before_what_is_seen_through_and_only_while_it_is_asked_for():
     scene = tracer.load("cornell_unit")
     stage, settings = Stage(scene), tracer.Settings(width=24, height=24, spp=2)
     record = tracer.inspect(scene, settings, 12, 20)
     cursor = Cursor(12, 20, tuple(len(path.events) for path in record.paths), 0, 1)
-    stage.draw(record, cursor, "picture")
-    few = stage.renderer.GetActors().GetNumberOfItems()
     over = Hemisphere(
         lens.over(scene.at(settings), planted(settings), record, 0, 1), stage.size, Speaker("en")
     )
-    stage.draw(record, cursor, "event", over=over)
+    stage.draw(record, cursor, "picture", over=over)
+    shown = {number: (points, cells) for number, points, cells in stage.strokes["over"]}
+    names = (*COLOURS, *hemisphere.COLOURS)
+    points, cells = over.drawn["lobe_f"]
+    sent = shown[names.index("lobe_f")]
+    assert np.array_equal(np.frombuffer(sent[0], "<f4").reshape(-1, 3), points.astype(np.float32))
+    assert np.array_equal(np.frombuffer(sent[1], "<u4").reshape(-1, 4)[:, 1:], cells)
     actors = stage.renderer.GetActors()
-    assert actors.GetNumberOfItems() == few + len(hemisphere.COLOURS)
     order = [actors.GetItemAsObject(k) for k in range(actors.GetNumberOfItems())]
-    lobe = stage._over["lobe_f"].actor
-    assert lobe.GetVisibility() and order.index(lobe) < min(
-        order.index(la.actor) for _, la in stage._surfaces
-    )
+    assert max(shown) < min(order.index(layer.actor) for _, layer in stage._surfaces)
+    for number, name in enumerate(names):  # the browser knows an actor by its number
+        colour = {**COLOURS, **hemisphere.COLOURS}[name]
+        assert np.allclose(order[number].GetProperty().GetColor(), colour)
     stage.draw(record, cursor, "event")
-    assert not any(layer.actor.GetVisibility() for layer in stage._over.values())
+    assert not any(points or cells for _, points, cells in stage.strokes["over"])
 
 
 def test_the_grid_is_asked_once_however_sharp_the_lobe_is(monkeypatch):

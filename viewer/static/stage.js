@@ -1,0 +1,93 @@
+// The 3D view: what the paths are drawn with, and words beside it. vtk.js would draw whenever a part of the scene has
+// come; here all that changed, page included, is drawn at once: on a software GL each picture of the page is dear.
+(window.castrayParts ||= []).push((castray) => {
+  const { inject, onBeforeUnmount, onMounted, ref } = window.Vue;
+  const { clamp, numbers } = castray;
+  const NOTHING = new Uint32Array(0);
+
+  const sub = (a, b) => a.map((v, k) => v - b[k]), dot = (a, b) => a.reduce((s, v, k) => s + v * b[k], 0);
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const unit = (a) => a.map((v) => v / Math.hypot(...a));
+  // where a point of the scene is seen in a view of that size; null behind the eye
+  function project(eye, at, width, height) {
+    const ahead = unit(sub(eye.focalPoint, eye.position)), side = unit(cross(ahead, eye.viewUp)), up = cross(side, ahead);
+    const ray = sub(at, eye.position), depth = dot(ray, ahead), f = height / 2 / Math.tan((eye.viewAngle * Math.PI) / 360);
+    return depth > 0 ? [width / 2 + (f * dot(ray, side)) / depth, height / 2 - (f * dot(ray, up)) / depth] : null;
+  }
+
+  // Gives the actors of viewer/stage.py, which vtk.js has made already, what the server says they show.
+  function drawer(renderer) {
+    const kept = []; // what was said of each, and the numbers made of it
+    return (strokes) => {
+      const actors = renderer().getActors();
+      let changed = false;
+      for (const said of strokes) {
+        const [k, points, cells] = said, mesh = actors[k].getMapper().getInputData();
+        if (!kept[k] || kept[k].said !== said) kept[k] = { said, points: numbers(Float32Array, points), cells: numbers(Uint32Array, cells) };
+        const now = kept[k];
+        if (mesh.getPoints().getData() === now.points) continue; // a scene that came anew brought its own
+        mesh.getPoints().setData(now.points, 3);
+        mesh.getLines().setData(now.cells[0] === 2 ? now.cells : NOTHING);
+        mesh.getPolys().setData(now.cells[0] === 3 ? now.cells : NOTHING);
+        mesh.modified();
+        actors[k].setVisibility(now.cells.length > 0);
+        changed = true;
+      }
+      return changed;
+    };
+  }
+
+  const Stage = {
+    props: ["labels", "camera", "strokes"],
+    setup(props) {
+      const trame = inject("trame"), view = inject("view"), box = ref(null), put = drawer(() => view.renderer);
+      let frame = 0, wanted = true, last = "", aimed = null;
+      const asked = new Map(), session = trame.client.getConnection().getSession();
+      view.ctx.setFetchArrayFunction((hash) => { // each array once, however many layers have it
+        if (!asked.has(hash)) asked.set(hash, session.call("viewport.geometry.array.get", [hash, true]).finally(() => asked.delete(hash)));
+        return asked.get(hash).then((bytes) => bytes.slice().buffer);
+      });
+      const canvas = view.openglRenderWindow.getCanvas(), context = canvas.getContext.bind(canvas);
+      canvas.getContext = (kind, options) => context(kind, { ...options, alpha: false }); // nothing to blend with the page
+      view.render = Object.assign(() => { wanted = true; }, { cancel() {} });
+      function look() {
+        frame = requestAnimationFrame(look);
+        if (!view.renderer || !view.interactor.getEnableRender()) return; // the scene is still on its way
+        if (aimed !== props.camera) { aimed = props.camera; view.setCamera(aimed); wanted = true; }
+        if (put(props.strokes)) wanted = true;
+        place(view.getCamera());
+        if (!wanted) return;
+        wanted = false;
+        view.renderer.resetCameraClippingRange();
+        view.renderWindow.render();
+      }
+      function place(eye) {
+        const { clientWidth: width, clientHeight: height } = box.value;
+        const legend = box.value.closest(".stage").querySelector(".marks"), low = height - 12 - (legend ? legend.offsetHeight + 10 : 0);
+        const now = JSON.stringify([eye, props.labels, width, height, low]);
+        if (now === last) return;
+        last = now;
+        const taken = [];
+        props.labels.forEach((label, k) => {
+          const element = box.value.children[k];
+          if (!element) return;
+          const there = project(eye, label.at, width, height);
+          element.hidden = !there; // behind the eye
+          if (!there) return;
+          let [x, y] = [clamp(there[0], 14, width - 14), Math.min(there[1], low)];
+          while (taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22)) y += 4;
+          taken.push([x, y, element.offsetWidth]);
+          element.style.transform = `translate(${x}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;
+        });
+      }
+      onMounted(look);
+      onBeforeUnmount(() => cancelAnimationFrame(frame));
+      const home = () => { aimed = null; };
+      return { box, home };
+    },
+    template: `<div class="labels"><div ref="box"><span v-for="label in labels" :key="label.text" class="label" :class="label.layer">{{ label.text }}</span></div>
+      <slot :home="home"></slot></div>`,
+  };
+
+  return { CastrayStage: Stage };
+});
