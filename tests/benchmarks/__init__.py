@@ -104,7 +104,7 @@ BENCH = (
 VIEWER = Section(
     "viewer",
     "The viewer",
-    "`python tests/bench_viewer.py`: from an input to what it changed, drawn, in Chromium with software GL\n"
-    "on the same machine; 20 times each.",
+    "`python tests/bench_viewer.py`: from an input to the frame on the screen that shows all it changed, in\n"
+    "Chromium with software GL on the same machine; 20 times each.",
     None,
 )
