@@ -4,21 +4,26 @@ import pytest
 
 COUNT = """
 window.asked = window.pictures = 0;
-const { send } = WebSocket.prototype, { clear } = WebGL2RenderingContext.prototype;
-WebSocket.prototype.send = function (...said) { window.asked++; return send.apply(this, said); };
-WebGL2RenderingContext.prototype.clear = function (...mask) { window.pictures++; return clear.apply(this, mask); };
+const counted = (prototype, name, count) => {
+  const before = prototype[name];
+  prototype[name] = function (...given) { count(); return before.apply(this, given); };
+};
+counted(WebSocket.prototype, "send", () => { window.asked++; });
+counted(WebGL2RenderingContext.prototype, "clear", () => { window.pictures++; });
 """
-# Of every layer: what vtk.js has, against what the server said last.
+# The layers of which vtk.js has something else than what the server said last.
 UNLIKE = """
 () => {
   const actors = window.trame.refs.view.$.provides.view.renderer.getActors(), state = window.trame.state;
-  const same = (a, b) => a.byteLength === b.byteLength && new Uint8Array(a.buffer).every((v, i) => v === b[i]);
-  return ["path", "event", "over"].flatMap((level) => state.get(`${level}_strokes`)).filter(([k, points, cells]) => {
-    const mesh = actors[k].getMapper().getInputData(), whole = cells.byteLength === 0;
-    const lines = mesh.getLines().getData(), faces = mesh.getPolys().getData();
+  const bytes = (values) => new Uint8Array(values.buffer).join(), said = (given) => [...given].join();
+  const strokes = ["path", "event", "over"].flatMap((level) => state.get(`${level}_strokes`));
+  return strokes.filter(([k, points, cells]) => {
+    const actor = actors[k], mesh = actor.getMapper().getInputData();
+    if (!cells.byteLength) return actor.getVisibility();
+    const [lines, faces] = [mesh.getLines().getData(), mesh.getPolys().getData()];
     const [drawn, none] = lines.length ? [lines, faces] : [faces, lines];
-    return whole ? actors[k].getVisibility()
-      : !(actors[k].getVisibility() && same(mesh.getPoints().getData(), points) && same(drawn, cells) && !none.length);
+    const same = bytes(mesh.getPoints().getData()) === said(points) && bytes(drawn) === said(cells);
+    return !(actor.getVisibility() && same && !none.length);
   }).map(([k]) => k);
 }
 """
