@@ -143,18 +143,29 @@ def test_every_kind_of_light_is_sampled_alike(gl, light_sampling):
 
 
 @pytest.mark.slow
-def test_a_scene_that_differs_by_numbers_of_its_tables_is_not_compiled_again(gl):
-    first, again, compiled = loaded("sky"), {}, tracing._compiled
-    tracer.render(first, small(spp=1), engine="gl")
-    before = compiled.cache_info().misses
-    for changes in ({"day.radiance": [0.1, 0.2, 0.3]}, {"sun.irradiance": [1, 2, 3]}, {}):
-        scene = changed(first, changes)
-        for seed in (1, 2):
-            again[str(changes), seed] = tracer.render(scene, small(spp=1, seed=seed), engine="gl").rgb
+@pytest.mark.parametrize(
+    ("scene", "changes"),
+    [
+        ("sky", [{}, {"day.radiance": [0.1, 0.2, 0.3]}, {"sun.irradiance": [1, 2, 3]}]),
+        ("cornell_unit", [{"lamp.scale": 0.5}, {"lamp.scale": 1.5}]),
+        ("mirror_corridor", [{"lamp.radius": 0.1}, {"lamp.radius": 0.2}]),
+    ],
+)
+def test_a_scene_that_differs_by_numbers_is_not_compiled_again(gl, scene, changes):
+    made, compiled = {}, tracing._compiled
+    for said in changes:
+        for more in ({}, {"seed": 1}, {"max_depth": 3}, {"roulette": "0.5"}, {"roulette": "0.9"}):
+            settings, turned = small(**{"spp": 1, "roulette": "0.7", **more}), changed(loaded(scene), said)
+            picture = tracer.render(turned, settings, engine="gl")
+            made[str((said, more))] = picture.rgb, turned, settings
+            if len(made) == 1:
+                before = compiled.cache_info().misses
     assert compiled.cache_info().misses == before
-    assert len({rgb.tobytes() for rgb in again.values()}) == len(again)
+    assert len({rgb.tobytes() for rgb, *_ in made.values()}) == len(made)
     compiled.cache_clear()
-    assert np.array_equal(tracer.render(scene, small(spp=1, seed=2), engine="gl").rgb, again["{}", 2])
+    assert np.array_equal(tracer.render(turned, settings, engine="gl").rgb, picture.rgb)
+    for rgb, *asked in made.values():
+        assert np.isclose(rgb, tracer.render(*asked).rgb, rtol=1e-3, atol=1e-5).all(axis=2).mean() > 0.95
 
 
 def test_what_pictures_took_of_the_card_does_not_pile_up(gl):

@@ -1,6 +1,7 @@
 """The lines of a shader that ask the shapes of a scene: as numbers one after the other, or as rows of tables.
 
-As numbers the compiler drops what is multiplied by zero; many of them would take it too long.
+As numbers the compiler drops what is multiplied by zero; many of them would take it too long. A shape that
+was changed stands in a table, so that changing it further compiles nothing.
 """
 
 from typing import NamedTuple
@@ -39,6 +40,7 @@ class Shapes(NamedTuple):
     balls: np.ndarray
     meshes: np.ndarray
     triangles: np.ndarray
+    turned: frozenset = frozenset()  # primitives that are rows of tables always, since they may change again
 
     @property
     def in_tree(self):
@@ -69,11 +71,14 @@ class Shapes(NamedTuple):
             yield from _loop(len(self.balls), "Ball", "balls", asked, "meet_sphere(r, near, k)")
             return
         meet = "meet_quad(r, near" if self.related else "meet_far_quad(r, near, close_by"
-        for row in self.quads[self.quads["number"][:, 1] >= shadows]:
-            hair = number(0.0 if shadows else row["more"][0])
-            yield f"    {meet}, {struct('Quad', row)}, {hair});"
-        for row in self.balls[self.balls["number"][:, 1] >= shadows]:
-            yield f"    meet_sphere(r, near, {struct('Ball', row)});"
+        for k in np.flatnonzero(self.quads["number"][:, 1] >= shadows):
+            row, again = self.quads[k], self.quads[k]["number"][0] in self.turned
+            quad = f"quads_at({k})" if again else struct("Quad", row)
+            hair = f"{quad}.more.x" if again else number(row["more"][0])
+            yield f"    {meet}, {quad}, {'0.0' if shadows else hair});"
+        for k in np.flatnonzero(self.balls["number"][:, 1] >= shadows):
+            row, again = self.balls[k], self.balls[k]["number"][0] in self.turned
+            yield f"    meet_sphere(r, near, {f'balls_at({k})' if again else struct('Ball', row)});"
         if not self.related:
             yield from ("    if (close_by) {", *every, "    }")
 

@@ -72,6 +72,13 @@ def _as_rectangles(shape):
     return made
 
 
+def turned(scene):
+    """The primitives of shapes that a change (scene_file.change) names, as of a lamp's size."""
+    names = {key.partition(".")[0] for key in scene.definition.changes if key.count(".") == 1}
+    of = (k for k, shape in enumerate(scene.shapes) if shape.name in names)
+    return frozenset(int(n) for k in of for n in np.flatnonzero(scene.shape_of == k))
+
+
 def balls(scene):
     """The spheres, as Balls."""
     asked = asked_for_shadows(scene)

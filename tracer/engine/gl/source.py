@@ -44,13 +44,14 @@ class Source:
             shape_tables.balls(scene),
             shape_tables.meshes(scene),
             triangles,
+            shape_tables.turned(scene),
         )
         self.text = "\n".join(self._parts())
 
     def _parts(self):
         yield "#version 430"
         yield from (f"#define {name} {value}" for name, value in self._defines())
-        yield "uniform uint seed;"
+        yield "uniform uint seed; uniform int last_depth; uniform float said_survival;"
         for name in ("compute/tables", "tables", "frame", "warp", "sampler/numbers"):
             yield text(name)
         yield from self._sampler()
@@ -95,9 +96,7 @@ class Source:
             "POWER": int(settings.heuristic == "power"),
             "HEMISPHERE": upper, "HEMISPHERE_PDF": f"{upper}_pdf",
             "OFF": 0, "AUTO": 1, "FIXED": 2, "ROULETTE": "FIXED" if fixed else settings.roulette.upper(),
-            "SURVIVAL": number(settings.roulette) if fixed else "1.0",
             "AUTO_DEPTH": AUTO_DEPTH, "AUTO_MOST": number(AUTO_MOST),
-            "LAST_DEPTH": settings.last_depth,
             "JITTER": int(settings.jitter), "LENS": int(camera.aperture_radius > 0.0),
             "PRIMITIVES": len(scene.shape_of), "ANY_DELTA": int(scene.bsdf.any_delta),
             "RELATIONS": int(shapes.related), "IN_TREE": int(shapes.in_tree),

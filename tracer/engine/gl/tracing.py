@@ -45,6 +45,12 @@ class Tracer:
         self._tables = context.buffer(source.tables.tobytes())
         self._shader = _compiled(context, source.text)
         self._buffers = {}
+        fixed = settings.roulette not in ("auto", "off")
+        self._numbers = {
+            "seed": settings.seed,
+            "last_depth": settings.last_depth,
+            "said_survival": float(settings.roulette) if fixed else 1.0,
+        }
 
     def __call__(self, task):
         """Trace one task; its samples are folded as those of every engine are."""
@@ -70,7 +76,7 @@ class Tracer:
         self._tables.bind_to_storage_buffer(0)
         for binding, table in self._buffers.items():
             table.bind_to_storage_buffer(binding)
-        self._say(seed=self.settings.seed, paths=paths, samples=samples)
+        self._say(**self._numbers, paths=paths, samples=samples)
         self._shader.run(-(-paths // GROUP))
         return np.frombuffer(out.read(16 * paths), np.float32).reshape(-1, samples, 4)
 

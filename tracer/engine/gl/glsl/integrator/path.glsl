@@ -34,7 +34,7 @@ float light_weight(float pdf_light, float pdf_bsdf)
 float survival(vec3 beta, int depth)
 {
 #if ROULETTE == FIXED
-    return SURVIVAL;
+    return said_survival;
 #elif ROULETTE == AUTO
     return depth < AUTO_DEPTH ? 1.0 : min(max(max(beta.r, beta.g), beta.b), AUTO_MOST);
 #else
@@ -60,9 +60,8 @@ vec3 trace(uint pixel, uint number, inout uint rays)
     Ray r = Ray(vec3(0.0), vec3(0.0), -1, -1, 0.0, true);
     camera_ray(vec2(pixel & 0xFFFFu, pixel >> 16u) + jitter.xy, lens, r.o, r.d);
     vec3 vertex = r.o;
-#if LAST_DEPTH < 0
-    return end(MAX_DEPTH, L);
-#endif
+    if (last_depth < 0)
+        return end(MAX_DEPTH, L);
     for (;; ++depth) {
         Near near = intersect(r);
         ++rays;
@@ -91,7 +90,7 @@ vec3 trace(uint pixel, uint number, inout uint rays)
 #endif
 
         // Vertices that nothing can be added to
-        if (depth >= LAST_DEPTH)
+        if (depth >= last_depth)
             return end(MAX_DEPTH, L);
         Frame frame = surface_frame(hit);
         vec3 wo = to_local(frame, hit.wo);
@@ -124,7 +123,7 @@ vec3 trace(uint pixel, uint number, inout uint rays)
         }
 #endif
 #if STRATEGY == BY_LIGHT && !ANY_DELTA
-        if (depth + 1 >= LAST_DEPTH)
+        if (depth + 1 >= last_depth)
             return end(MAX_DEPTH, L);
 #endif
 
