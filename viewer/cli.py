@@ -76,6 +76,8 @@ def main(words=None):
             warnings.showwarning = _say
             language, words = _language([*(sys.argv[1:] if words is None else words)])
             use(language)
+            if words[:1] == ["help"]:
+                words = [*words[1:], "--help"]
             code = command_line(Speaker())(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
         _say(Speaker().error(" ".join(str(error).split())))

@@ -3,9 +3,11 @@
 from dataclasses import asdict
 
 import numpy as np
+from rich.cells import cell_len
 
 from tracer.picture import to_srgb
 from tracer.testing.compare import CHANNELS
+from viewer.words import Speaker
 
 FULL = 5.0  # standard errors at which the map's colours are full
 # From a darker than b through grey to a brighter than b; ColorBrewer's RdBu would be white in the middle,
@@ -17,31 +19,39 @@ ODD = np.array([1.0, 1.0, 0.0])  # cannot be compared
 
 def lines(verdict, names):
     """What `castray diff` prints of a Verdict on the pictures with these names."""
-    yield f"{'same but for noise' if verdict.same and verdict.z else 'same' if verdict.same else 'different'}"
-    yield from verdict.reasons
-    yield from verdict.notes
-    distance = verdict.errors
+    say, distance = Speaker(), verdict.errors
+    yield say("diff." + ("different" if not verdict.same else "noise" if verdict.z else "same"))
+    yield from map(say.error, (*verdict.reasons, *verdict.notes))
     yield ""
-    yield f"a = {names[0]}, b = {names[1]}, in {distance.unit}"
-    yield f"RMSE                           {distance.rmse:.6g}"
-    yield f"relMSE                         {distance.rel_mse:.6g}   mean of (a - b)^2 / (b^2 + 0.01)"
-    x, y, channel = distance.worst
-    yield f"largest |a - b|                {distance.most:.6g}   at pixel ({x}, {y}), {CHANNELS[channel]}"
-    yield f"mean of a - b                  {_three(distance.mean, '+.6g')}"
+    yield say("diff.of", a=names[0], b=names[1], unit=distance.unit)
+    yield _row("RMSE", f"{distance.rmse:.6g}")
+    yield _row("relMSE", f"{distance.rel_mse:.6g}   {say('diff.rel_mse')}")
+    yield _row(say("diff.largest"), f"{distance.most:.6g}   {_at(distance.worst, say)}")
+    yield _row(say("diff.mean"), _three(distance.mean, "+.6g"))
     if verdict.z is not None:
-        yield from _test_lines(verdict.z)
+        yield from _test_lines(verdict.z, say)
     if not verdict.same:
         yield ""
         yield verdict.look
 
 
-def _test_lines(z):
+def _row(name, said):
+    """A line of the table: what it is, and its number from the 32nd column on."""
+    return name + " " * max(1, 31 - cell_len(name)) + said
+
+
+def _at(worst, say):
+    x, y, channel = worst
+    return say("diff.at", x=x, y=y, channel=say(f"channel.{CHANNELS[channel]}"))
+
+
+def _test_lines(z, say):
     x, y, channel = z.worst
-    yield f"bias Z                         {_three(z.Z, '+.2f')}   p = {z.p_bias:.3g}"
-    yield f"bias, pixels weighed by noise  {_three(z.bias, '+.3g')}   +- {_three(z.bound, '.2g')}"
-    place = f"at pixel ({x}, {y}), {CHANNELS[channel]}"
-    yield f"largest |z| of {z.tested:<15} {abs(z.z[y, x, channel]):.2f}   {place}; p = {z.p_pixel:.3g}"
-    yield f"p-value of it all              {z.p_value:.3g}   different if below {z.alpha:g}"
+    yield _row(say("diff.bias"), f"{_three(z.Z, '+.2f')}   p = {z.p_bias:.3g}")
+    yield _row(say("diff.weighed"), f"{_three(z.bias, '+.3g')}   +- {_three(z.bound, '.2g')}")
+    off = f"{abs(z.z[y, x, channel]):.2f}   {_at(z.worst, say)}; p = {z.p_pixel:.3g}"
+    yield _row(say("diff.largest_z", n=z.tested), off)
+    yield _row(say("diff.all"), f"{z.p_value:.3g}   {say('diff.alpha', alpha=f'{z.alpha:g}')}")
 
 
 def _three(values, spec):

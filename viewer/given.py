@@ -1,6 +1,7 @@
 """Traces that a command is given: a recording's folder, or the log of another tracer."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 
@@ -31,6 +32,8 @@ def logged_trace(file, scene, name=None):
     reading it goes to standard error. Raises TracerError."""
     from tracer.trace.jsonl import read_log
 
+    if not Path(file).is_file():
+        raise TracerError(f"{file}: there is no such file")
     if scene is None:
         raise TracerError(f"{file}: give --scene, the scene that this log is of")
     name = name or file

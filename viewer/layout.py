@@ -17,7 +17,7 @@ FRAME = """
       <option v-for="l in languages" :key="l.tag" :value="l.tag" :lang="l.tag">{{ l.name }}</option></select>
   </header>
   <aside class="left">%(left)s</aside>
-  <section class="stage" :aria-label="w.stage" data-testid="stage">%(view)s
+  <section class="stage" id="stage" :aria-label="w.stage" data-testid="stage">%(view)s
     <ul class="marks" :aria-label="w.legend">
       <li><i class="walked"></i>{{ w.legend_walked }}</li><li><i class="ahead"></i>{{ w.legend_ahead }}</li>
       <li><i class="others"></i>{{ w.legend_others }}</li><li><i class="lit">━●</i>{{ w.legend_lit }}</li>

@@ -51,9 +51,10 @@ def _begun(record, scene, console):
 
 def print_needs(features, console=None):
     """What a picture needs of the tracer and what is skipped, a line each."""
-    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    table, say = Table(box=None, show_header=False, padding=(0, 2, 0, 0)), Speaker()
     for need in features:
-        table.add_row("on" if need.on else "off", need.name, need.why, style="" if need.on else "dim")
+        word = say("render.on" if need.on else "render.off")
+        table.add_row(word, need.name, need.why, style="" if need.on else "dim")
     (console or Console(highlight=False)).print(table)
 
 

@@ -23,6 +23,7 @@ from lessons.zoo import (
 )
 from lessons.zoo.bug import Bug
 from tracer.integrator.steps import RIGHT
+from tracer.scene_file.words import near
 from tracer.settings import TracerError
 
 FAMILIES = {
@@ -67,7 +68,9 @@ def alike(bug_id):
 def of(bug_id):
     """The Bug with this id. Raises TracerError with the ids there are."""
     if bug_id not in ZOO:
-        raise TracerError(f"bug: {bug_id!r} is not in the zoo; there are {', '.join(ZOO)}")
+        close = near(bug_id.upper(), ZOO)
+        known = "castray bugs lists them" if close else f"there are {', '.join(ZOO)}"
+        raise TracerError(f"bug: {bug_id!r} is not in the zoo; {close}{known}")
     return ZOO[bug_id]
 
 

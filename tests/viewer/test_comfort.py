@@ -90,10 +90,51 @@ def test_after_the_server_was_started_again_the_page_goes_on_where_it_was(serve,
 def test_everything_that_can_be_used_has_a_name_and_is_reached_by_keys(small, visit):
     page = visit(small.address)
     page.get_by_test_id("open").locator("summary").click()
+    tree = page.context.new_cdp_session(page)
     tabs = page.locator("[role=tab]").evaluate_all("all => all.map(e => e.dataset.testid)")
-    for tab in tabs:
-        page.get_by_test_id(tab).click(force=True)
-        page.wait_for_timeout(150)
-        assert page.evaluate(NAMELESS) == [], tab
-        assert page.evaluate(SKIPPED) == [], tab  # the order of focus is that of the page
+    for language in LANGUAGES:
+        page.get_by_test_id("language").select_option(language)
+        page.wait_for_function("tag => document.documentElement.lang === tag", arg=language)
+        for tab in tabs:
+            page.get_by_test_id(tab).click(force=True)
+            page.wait_for_timeout(150)
+            assert page.evaluate(NAMELESS) == [], tab
+            assert page.evaluate(SKIPPED) == [], tab  # the order of focus is that of the page
+            heard = told(tree)
+            assert [role for role, name, used in heard if used and not name.strip()] == [], (tab, language)
+            named = ("tab", "image", "search", "tablist", "region")
+            names = [name for role, name, _ in heard if role in named]
+            assert all(bool(CHINESE.search(name)) == (language == "zh") for name in names), (tab, names)
     assert page.errors == []
+
+
+USED = {"button", "link", "searchbox", "textbox", "slider", "combobox", "spinbutton", "tab", "checkbox",
+        "radio", "image", "search", "tabpanel", "toolbar", "dialog", "alertdialog",
+        "DisclosureTriangle"}  # fmt: skip
+CHINESE = re.compile(r"[\u4e00-\u9fff]")
+
+
+def told(tree):
+    """What a screen reader is told, [(role, name, whether it can be used or has to have a name)]."""
+    nodes = [node for node in tree.send("Accessibility.getFullAXTree")["nodes"] if not node.get("ignored")]
+    return [
+        (
+            node["role"]["value"],
+            node.get("name", {}).get("value", ""),
+            node["role"]["value"] in USED
+            or node["role"]["value"] != "RootWebArea"
+            and any(p["name"] == "focusable" and p["value"]["value"] for p in node.get("properties", [])),
+        )
+        for node in nodes
+    ]
+
+
+@pytest.mark.browser
+def test_a_control_without_a_name_would_be_seen(small, visit):
+    """The test above can fail."""
+    page = visit(small.address)
+    page.evaluate(
+        "document.querySelector('[data-testid=zoom-in]').replaceWith(document.createElement('button'))"
+    )
+    tree = page.context.new_cdp_session(page)
+    assert [role for role, name, used in told(tree) if used and not name.strip()] == ["button"]

@@ -166,6 +166,14 @@ OFTEN = (
     "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 999.bounce=3,4",
     "inspect cornell_unit --pixel 0 0 --event 3", "inspect cornell_unit --pixel 0 0 --sample 0 --event 99",
     "inspect cornell_unit --pixel 0 0 --sample 0 --event 0",
+    "render cornel", "render nowhere.toml", "render cornell_unit --bug e01", "render cornell_unit --ssp 4",
+    "inspect cornell_unit --pixel 3", "view --lesson 3 --spp 4", "view cornell --scene cornell", "lesson one",
+    "lesson 4 --check", "lesson 4 --hint nothing", "lesson --check 3", "bugs E1", "doctor nowhere.jsonl",
+    "doctor no.png", "log nowhere.jsonl", "query nowhere x", "twin cornell_unit", "bsdf glas",
+    "bsdf diffuse -o x.jpg", "bsdf diffuse 3", "export furnace -o no", "check no.py --seconds 0",
+    "render cornell_unit --until-error 0", "render cornell_unit -o x.jpeg2", "render furnace --workers 0",
+    "render furnace --adaptive x --until-error 1", "render furnace --record-level events", "bench",
+    "diff no.exr", "render furnace --engine x", "render furnace --spp four", "render furnace --accel x",
 )  # fmt: skip
 BROKEN = (
     "[sensor]\ntype = 'x'",
@@ -198,6 +206,18 @@ def test_errors_in_scene_files_are_told_in_chinese(text, tmp_path, capsys):
     file.write_text(text, encoding="utf-8")
     said = refused(["--lang", "zh", "render", str(file)], capsys)
     assert re.search(r"[\u4e00-\u9fff]", said) and str(file) in said
+
+
+ERRORS = [(key, words) for key, words in table("en").items() if key.startswith("error.")]
+
+
+@pytest.mark.parametrize(("key", "words"), ERRORS, ids=[key for key, _ in ERRORS])
+def test_no_error_is_taken_for_a_more_general_one(key, words):
+    """Of all patterns that fit an error the first says it: those that are general come last."""
+    said = words.format(**{name: f"<{name}>" for name in names(words)})
+    chinese = table("zh")[key].format(**{name: f"<{name}>" for name in names(words)})
+    if "which" not in names(words) and "kind" not in names(words):
+        assert Speaker("zh").error(said) == chinese
 
 
 def test_an_error_that_is_not_in_the_table_keeps_its_own_words():

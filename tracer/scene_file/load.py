@@ -12,7 +12,7 @@ from tracer.definition import Definition, Surface
 from tracer.scene import Scene
 from tracer.scene_file import emitters, interior, limits, materials, objects
 from tracer.scene_file.textures import Sources, texture
-from tracer.scene_file.words import Words, listed, shown
+from tracer.scene_file.words import Words, listed, near, shown
 from tracer.settings import TracerError
 from tracer.shape import Mesh
 
@@ -36,8 +36,8 @@ def load(scene, alone=False):
         return _load_xml(path, alone)
     if path.suffix.lower() != ".toml":
         if text not in built_in_scenes():
-            known = ", ".join(built_in_scenes())
-            raise TracerError(f"{text}: no such scene; give a .toml or .xml file or one of {known}")
+            known, close = ", ".join(built_in_scenes()), near(text, built_in_scenes())
+            raise TracerError(f"{text}: no such scene; {close}give a .toml or .xml file or one of {known}")
         path = BUILT_IN / f"{text}.toml"
     description = _toml(path)
     try:

@@ -216,9 +216,17 @@ def _said(error):
         told = json.loads(text[begin:])
     except ValueError:
         return " ".join(text.split("\n\n")[0].split()), None, None
-    words = " ".join(told.get("exception_message", text).split("\n")[0].split())
+    words = _plainly(" ".join(told.get("exception_message", text).split("\n")[0].split()))
     position = told.get("position")
     return words, None if position is None else int(position), told.get("name")
+
+
+def _plainly(words):
+    """What DuckDB says most often, in words of those who do not know it."""
+    said = re.sub(
+        r'^Referenced column ("[^"]+") not found in FROM clause!?$', r"there is no column \1", words
+    )
+    return re.sub(r"^Table with name (\S+) does not exist!?$", r"there is no view \1", said)
 
 
 def _explained(error, text, before, level):

@@ -12,6 +12,7 @@ from tracer.bsdf.metals import METALS
 from tracer.scene_file import materials
 from tracer.settings import TracerError
 from viewer.options import Json, print_json
+from viewer.words import Speaker
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
@@ -50,7 +51,7 @@ def bsdf(
         return
     print_report(document)
     if output is not None:
-        print(f"\n{output}: the plot")
+        print(f"\n{Speaker()('bench_bsdf.plot', path=output)}")
 
 
 def described(name, words):
@@ -132,27 +133,29 @@ def print_report(document):
     from rich.console import Console
     from rich.table import Table
 
-    console = Console(highlight=False, soft_wrap=True)
+    console, say = Console(highlight=False, soft_wrap=True), Speaker()
     words = ", ".join(f"{word} = {value}" for word, value in document["material"].items())
     console.print(f"{document['name']}: {words}\n", markup=False)
-    table = Table(box=None, title="properties", title_justify="left", title_style="bold")
-    for column in ("property", "", "figure", "which is the"):
-        table.add_column(column, justify="right" if column == "figure" else "left")
+    table = Table(box=None, title=say("bench_bsdf.properties"), title_justify="left", title_style="bold")
+    for column in ("property", "", "figure", "which"):
+        head = say(f"bench_bsdf.{column}") if column else ""
+        table.add_column(head, justify="right" if column == "figure" else "left")
     for p in document["properties"]:
-        table.add_row(p["name"], "yes" if p["holds"] else "no", f"{p['figure']:.3g}", p["meaning"])
+        holds = say("value.yes" if p["holds"] else "value.no")
+        name, meaning = (say.optional(f"property.{p[key]}", p[key]) for key in ("name", "meaning"))
+        table.add_row(name, holds, f"{p['figure']:.3g}", meaning)
     console.print(table)
-    table = Table(box=None, title="\ndirectional albedo", title_justify="left", title_style="bold")
-    for column in ("angle", "reflected (R G B)", "transmitted (R G B)", "standard error"):
-        table.add_column(column, justify="right")
+    table = Table(box=None, title=f"\n{say('bench_bsdf.albedo')}", title_justify="left", title_style="bold")
+    for column in ("angle", "reflected", "transmitted", "error"):
+        table.add_column(say(f"bench_bsdf.{column}"), justify="right")
     for row in document["albedo"]:
         shares = (" ".join(f"{v:.4f}" for v in row[key]) for key in ("reflected", "transmitted"))
         table.add_row(f"{row['degrees']:g}°", *shares, f"{max(row['standard_error']):.1e}")
     console.print(table)
     if document["fresnel"]:
         marks = document["fresnel"]
-        console.print(f"\nFresnel: {marks['head_on']:.4f} head on, Schlick is off by", end=" ")
-        console.print(f"{marks['schlick_error']:+.4f} at {marks['schlick_error_degrees']:.1f}°", end="")
-        for key in ("brewster", "critical"):
-            if key in marks:
-                console.print(f", {key} angle {marks[key]:.2f}°", end="")
-        console.print()
+        numbers = {"head_on": f"{marks['head_on']:.4f}", "off": f"{marks['schlick_error']:+.4f}"}
+        said = [say("bench_bsdf.fresnel", degrees=f"{marks['schlick_error_degrees']:.1f}", **numbers)]
+        angles = (key for key in ("brewster", "critical") if key in marks)
+        said += [say(f"bench_bsdf.{key}", degrees=f"{marks[key]:.2f}") for key in angles]
+        console.print(f"\n{say.listed(*said)}", markup=False)

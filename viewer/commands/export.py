@@ -6,6 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 import tracer
+from viewer.words import Speaker
 
 
 def export(
@@ -27,4 +28,4 @@ def export(
     loaded = tracer.load(scene)
     path = Path(f"{loaded.name}.xml") if output is None else output
     tracer.export(loaded, path)
-    print(f"{path}: Mitsuba 3 XML")
+    print(Speaker()("export.done", path=path))

@@ -60,6 +60,8 @@ def lesson(
     asked = [name for name, said in (("check", check), ("hint", hint), ("solution", solution)) if said]
     if len(asked) > 1:
         raise TracerError(f"lesson: --{asked[0]} and --{asked[1]} are for one at a time")
+    if check is not None and not check:
+        raise TracerError(f"lesson: {number} --check needs your answer behind it")
     if check:
         return _check(run, check, progress, json)
     if hint or solution:

@@ -8,6 +8,7 @@ from cyclopts import Parameter
 import tracer
 from tracer.settings import TracerError
 from viewer.options import Json, print_json
+from viewer.words import Speaker
 
 
 def log(
@@ -50,17 +51,18 @@ def log(
     if json:
         print_json(as_dict(found))
         return
-    print(f"{file}: {_counts(found)}")
+    say = Speaker()
+    print(f"{file}: {_counts(found, say)}")
     for mistake in found.mistakes:
         print(mistake)
     more = found.read.mistaken - len(found.mistakes)
     if more:
-        print(f"... and {more} more mistakes")
+        print(say("log.more", n=more))
     for note in found.notes:
-        print(f"note: {note}")
+        print(say("log.note", note=note))
     if found.read_off:
         said = ", ".join(f"{name} {value}" for name, value in found.read_off.items())
-        print(f"not declared, read off the numbers: {said}")
+        print(say("log.read_off", what=said))
 
 
 def _write(path, source):
@@ -70,12 +72,13 @@ def _write(path, source):
         raise TracerError(f"{path}: {error.strerror or error}") from None
 
 
-def _counts(found):
+def _counts(found, say):
     if found.trace is None:
-        return f"{found.read.lines} lines; give --scene SCENE to see what they hold"
+        return say("log.lines", lines=found.read.lines)
     events = ", ".join(f"{t.path.size} {name}" for name, t in found.trace.tables.items() if t.path.size)
     trace = found.trace
-    return f"{found.read.lines} lines, {trace.size} paths, {trace.vertices} vertices; events: {events}"
+    counts = {"lines": found.read.lines, "paths": trace.size, "vertices": trace.vertices}
+    return say("log.holds", events=events, **counts)
 
 
 def as_dict(found):

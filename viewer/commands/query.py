@@ -14,6 +14,7 @@ from tracer.trace.breakpoints import BREAKPOINTS, condition
 from tracer.trace.query import SECONDS
 from viewer.link import Link
 from viewer.options import Json, Whole, print_json
+from viewer.words import Speaker
 
 MOST_ROWS = 1_000_000
 _STOPS = "; ".join(f"{name}: {b.about}" for name, b in BREAKPOINTS.items())
@@ -98,7 +99,8 @@ def _command(trace, path):
 
 def _print_paths(answer):
     """How many match, the first of them, and how to look at the first."""
-    print(f"{answer['events']} events on {answer['paths']} paths of {answer['pixels']} pixels")
+    say = Speaker()
+    print(say("query.count", **{name: answer[name] for name in ("events", "paths", "pixels")}))
     if not answer["found"]:
         return
     rows = [
@@ -111,16 +113,16 @@ def _print_paths(answer):
         ]
         for p in answer["found"]
     ]
-    _print_table(("pixel", "sample", "first at", "depth", "events"), rows)
+    _print_table([say(f"query.{name}") for name in ("pixel", "sample", "first", "depth", "events")], rows)
     if len(rows) < answer["paths"]:
-        print(f"... and {answer['paths'] - len(rows)} more (--limit)")
-    print(f"look at the first: {answer['found'][0]['view']}")
+        print(say("query.more", n=answer["paths"] - len(rows)))
+    print(say("query.look", command=answer["found"][0]["view"]))
 
 
 def _print_rows(answer):
     _print_table(answer["columns"], answer["rows"])
     if answer["more"]:
-        print("... and more (--limit)")
+        print(Speaker()("query.more_rows"))
 
 
 def _print_table(names, rows):

@@ -22,6 +22,7 @@ from viewer.options import (
     settings_and_steps,
 )
 from viewer.progress import watched
+from viewer.words import Speaker
 
 MOST_SPP = 4096  # samples of a pixel where only an error is asked for
 
@@ -217,15 +218,14 @@ def _print_picture(picture, path):
     """A picture and what it cost, in lines."""
     height, width = picture.samples.shape
     spp = picture.settings.spp
-    rate = picture.paths / max(picture.seconds, 1e-9)
-    print(
-        f"{path}: {width} x {height}, {picture.paths} paths in {picture.seconds:.2f} s ({rate:.3g} paths/s)"
-    )
+    say, rate = Speaker(), picture.paths / max(picture.seconds, 1e-9)
+    cost = {"paths": picture.paths, "seconds": f"{picture.seconds:.2f}", "rate": f"{rate:.3g}"}
+    print(say("render.done", path=path, width=width, height=height, **cost))
     if picture.samples.min() < picture.samples.max():
         every = sorted(picture.samples.ravel().tolist())
-        spent = f"{every[0]} to {every[-1]}, median {every[len(every) // 2]}"
-        print(f"samples per pixel: {spent}; {picture.saved:.1%} of {spp} saved")
+        spent = {"least": every[0], "most": every[-1], "median": every[len(every) // 2], "spp": spp}
+        print(say("render.spent", saved=f"{picture.saved:.1%}", **spent))
     if not picture.complete:
-        print(f"stopped early: every pixel has at least {picture.samples.min()} of {spp} samples")
+        print(say("render.stopped", least=picture.samples.min(), spp=spp))
     if picture.dropped:
-        print(f"{picture.dropped} samples were not finite and count as 0")
+        print(say("render.dropped", n=picture.dropped))

@@ -100,7 +100,7 @@
       const type = (is) => { typing = is; };
       return { typed, open, send, take, type };
     },
-    template: `<form role="search" class="ask" @submit.prevent="send"><input v-model="typed" type="search" spellcheck="false" autocomplete="off" maxlength="2000"
+    template: `<form role="search" class="ask" :aria-label="words.find_go" @submit.prevent="send"><input v-model="typed" type="search" spellcheck="false" autocomplete="off" maxlength="2000"
         :aria-label="words.find_query" :placeholder="examples[0]" :aria-invalid="invalid" data-testid="query" @input="type(true)" @blur="type(false)">
       <button data-testid="find-go">{{ words.find_go }}</button>
       <button type="button" :aria-expanded="open" data-testid="find-examples" @click="open = !open">{{ words.find_examples }}</button></form>

@@ -41,7 +41,7 @@
     props: ["labels", "camera", "strokes"],
     setup(props) {
       const trame = inject("trame"), view = inject("view"), box = ref(null), put = drawer(() => view.renderer);
-      let frame = 0, wanted = true, last = "", aimed = null;
+      let frame = 0, wanted = true, last = "", aimed = null, named = false;
       const asked = new Map(), session = trame.client.getConnection().getSession();
       view.ctx.setFetchArrayFunction((hash) => { // each array once, however many layers have it
         if (!asked.has(hash)) asked.set(hash, session.call("viewport.geometry.array.get", [hash, true]).finally(() => asked.delete(hash)));
@@ -53,6 +53,7 @@
       function look() {
         frame = requestAnimationFrame(look);
         if (!view.renderer || !view.interactor.getEnableRender()) return; // the scene is still on its way
+        if (!named) named = name(canvas.closest("[tabindex]"));
         if (aimed !== props.camera) { aimed = props.camera; view.setCamera(aimed); wanted = true; }
         if (put(props.strokes)) wanted = true;
         place(view.getCamera());
@@ -60,6 +61,14 @@
         wanted = false;
         view.renderer.resetCameraClippingRange();
         view.renderWindow.render();
+      }
+      // no key does anything in what vtk.js draws into: it is no stop of the focus, and named as what is around it
+      function name(drawn) {
+        if (!drawn) return false;
+        drawn.tabIndex = -1;
+        drawn.setAttribute("role", "img");
+        drawn.setAttribute("aria-labelledby", "stage");
+        return true;
       }
       function place(eye) {
         const { clientWidth: width, clientHeight: height } = box.value;

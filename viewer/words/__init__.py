@@ -30,6 +30,9 @@ def table(language):
     return {key: words for tables in areas().values() for key, words in tables.get(language, {}).items()}
 
 
+INNER = {"why", "what"}
+
+
 @cache
 def _patterns(prefix):
     """Keys that begin so, with patterns of their English."""
@@ -92,6 +95,8 @@ class Speaker:
                     values = found.groupdict()
                     if "which" in values:  # settings and their two values
                         values["which"] = self.listed(*map(self._differing, values["which"].split(", ")))
+                    for inner in values.keys() & INNER:  # a sentence of its own
+                        values[inner] = self.error(values[inner])
                     if "kind" in values:
                         values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
                     return self(key, **values)
