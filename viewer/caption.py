@@ -54,6 +54,8 @@ def caption(event, scene, say):
 
 
 def _camera(v, scene, say):
+    if not np.all(np.isfinite(v["film"])):  # a log need not have it
+        return say("caption.camera.only")
     return say("caption.camera", x=short(v["film"][0]), y=short(v["film"][1]))
 
 
@@ -67,7 +69,9 @@ def _hit(v, scene, say):
 
 def light_outcome(v):
     """What became of a light sample: behind, below, absorbed, blocked, denied (it counts as
-    hidden, though nothing is in the way), lit or nothing."""
+    hidden, though nothing is in the way), lit or nothing; unsaid by a log that has what it brings alone."""
+    if v["light"] < 0 and not np.all(np.isfinite(v["q"])):
+        return "unsaid"
     if v["cos_light"] <= 0:
         return "behind"
     if not np.any(v["f"] > 0):
@@ -88,6 +92,7 @@ def _light(v, scene, say):
         distance=short(v["distance"]),
         at=short(v["blocker_distance"]),
         w=short(v["w"]),
+        added=several(v["contribution"]),
     )
     return say.sentences(text, _through(v, say)) if outcome == "lit" else text
 
@@ -104,6 +109,8 @@ def _bounce(v, scene, say):
 
 def _roulette(v, scene, say):
     key = "caption.roulette.survived" if v["survived"] else "caption.roulette.ended"
+    if not np.isfinite(v["u"]):
+        return say(f"{key}.only", q=short(v["probability"]))
     return say(key, q=short(v["probability"]), u=short(v["u"]))
 
 

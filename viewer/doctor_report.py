@@ -7,6 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from viewer.folded import Folded
 from viewer.numerals import several
 from viewer.words import Speaker
 
@@ -161,7 +162,7 @@ def _print_rules(verdicts, say, console):
         _print_counts(rest, say, console)
     if holding:
         said = say("doctor.holding", n=len(holding), rules=say.listed(*(v.rule.id for v in holding)))
-        console.print(Text(said, style="dim"))
+        console.print(Folded(Text(said, style="dim")))
     _print_untestable([v for v in verdicts if v.state == "not_testable"], say, console)
 
 
@@ -185,4 +186,4 @@ def _print_untestable(verdicts, say, console):
         lacking.setdefault(verdict.missing, []).append(verdict.rule.id)
     for missing, rules in lacking.items():
         said = say("doctor.untestable", missing=say.lacking(missing), rules=say.listed(*rules))
-        console.print(Text(said, style="dim"))
+        console.print(Folded(Text(said, style="dim")))

@@ -7,6 +7,7 @@ from string import Formatter
 import numpy as np
 import pytest
 from cases import slow_but
+from logs import INNER, OUTER, write_log
 
 import tracer
 from lessons import glossary
@@ -14,6 +15,8 @@ from lessons.zoo import FAMILIES, ZOO
 from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
 from tracer.settings import Settings
+from tracer.trace.jsonl import read_log
+from tracer.trace.pixels import pixel, without_gaps
 from viewer.caption import caption, shown, unit_of, why_dead
 from viewer.cli import main
 from viewer.equation import formulas
@@ -79,6 +82,19 @@ def test_a_result_that_does_not_follow_is_seen(pixels):
                 assert formulas(path, index, settings, SAY)["differs"]
                 return
     pytest.fail(f"no light anywhere in {scene.name}")
+
+
+def test_what_a_log_need_not_have_is_no_dash_in_a_sentence(tmp_path):
+    log = write_log(tmp_path / "mine.jsonl", OUTER, INNER)
+    trace = without_gaps(read_log(log, tracer.load("cornell")).trace)
+    path = pixel(trace, 3, 5).paths[0]
+    said = [caption(e, trace.scene, say) for say in map(Speaker, LANGUAGES) for e in path.events]
+    assert len(said) > 10 and not any("–" in text or "?" in text or "nan" in text for text in said)
+
+
+def test_one_thing_is_not_said_in_the_plural():
+    assert SAY("find.count", events=1, paths=1, pixels=21).startswith("1 event on 1 path of 21 pixels")
+    assert "1,001 paths" in SAY("find.count", events=1001, paths=1001, pixels=11)
 
 
 def test_every_kind_and_every_end_has_its_words():

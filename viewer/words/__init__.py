@@ -31,6 +31,8 @@ def table(language):
 
 
 INNER = {"why", "what"}
+# English counts in the plural, but for one thing: "1 paths" is "1 path".
+ONE = re.compile(r"(?<![\d.,/-])(1 (?:path|event|pixel|sample|finding|statement|direction))s\b")
 
 
 @cache
@@ -53,7 +55,8 @@ class Speaker:
         self.words = table(self.language)
 
     def __call__(self, key, /, **values):
-        return self.words[key].format(**values)
+        said = self.words[key].format(**values)
+        return ONE.sub(r"\1", said) if self.language == "en" else said
 
     def optional(self, key, otherwise):
         """The words for a key, or other ones where the table has none."""

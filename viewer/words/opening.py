@@ -5,7 +5,7 @@ WORDS = {
         "given.running": "Running …",
         "given.own": "The picture is castray's own.",
         "given.findings": "{paths} paths, causes found: {n} (see Doctor).",
-        "given.clean": "{paths} paths break no law.",
+        "given.clean": "{paths} paths: no law is broken.",
         "given.last_good": "Shown is the last good run.",
         "ui.given": "Your own tracer",
         "ui.given_show": "Show it again",
