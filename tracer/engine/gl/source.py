@@ -4,6 +4,7 @@ What a scene lacks is not in the source at all: materials of other kinds, lights
 Few shapes stand in it as numbers (see asked).
 """
 
+from functools import cache
 from importlib.resources import files
 
 import numpy as np
@@ -21,6 +22,7 @@ GROUP = 64  # invocations side by side
 _STRATEGIES = {"mis": "MIS", "light": "BY_LIGHT", "bsdf": "BY_BSDF"}
 
 
+@cache
 def text(name):
     """A file of glsl/."""
     return (files("tracer.engine.gl") / "glsl" / f"{name}.glsl").read_text(encoding="utf-8")
