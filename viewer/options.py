@@ -9,6 +9,7 @@ from cyclopts import Group, Parameter
 import tracer
 from lessons.zoo import planted
 from tracer.settings import Settings, TracerError
+from viewer.sendable import sendable
 from viewer.spoken_help import PATH_OPTIONS
 
 ENGINES = ("numpy", "gl", "auto")
@@ -84,7 +85,7 @@ Json = Annotated[bool, Parameter(help="Print one JSON document and nothing else.
 
 def print_json(document):
     """One JSON document on standard output."""
-    print(dumps(document, allow_nan=False, ensure_ascii=True))
+    print(dumps(sendable(document), allow_nan=False, ensure_ascii=True))
 
 
 def check_engine(engine):

@@ -117,7 +117,8 @@ class Strokes:
         marks = []
         for name, start, direction, length in self.vectors(path, index):
             at = np.asarray(start, float) + 1.12 * length * np.asarray(direction, float)
-            marks.append({"text": NAMES[name], "layer": name, "at": at.tolist()})
+            if np.isfinite(at).all():
+                marks.append({"text": NAMES[name], "layer": name, "at": at.tolist()})
         return marks
 
 

@@ -10,6 +10,7 @@ from viewer.company import companions, over_vertex
 from viewer.painting import Painting
 from viewer.panels import all_panels
 from viewer.panels.panel import LEVELS
+from viewer.sendable import sendable
 from viewer.stage import Stage
 from viewer.words import LANGUAGES, Speaker
 
@@ -100,8 +101,8 @@ class Window:
         for panel in all_panels():
             if panel.show and panel.level in changed:
                 shut = panel.lazy and panel.name != self.tab
-                self.state[panel.name] = None if shut else panel.show(session, self.say)
-        self.state.update(
+                self._tell({panel.name: None if shut else panel.show(session, self.say)})
+        self._tell(
             {
                 "path_index": cursor.path,
                 "event_index": cursor.event,
@@ -129,7 +130,11 @@ class Window:
     def show(self, name):
         """Show one panel again."""
         panel = next(p for p in all_panels() if p.name == name)
-        self.state[name] = panel.show(self.session, self.say)
+        self._tell({name: panel.show(self.session, self.say)})
+
+    def _tell(self, values):
+        """Put values into the page's state: a path may hold numbers that are none."""
+        self.state.update(sendable(values))
 
     def cover(self, overlay):
         """Lay an Overlay over the picture, or take away what lies there (None)."""

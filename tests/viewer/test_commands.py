@@ -3,6 +3,7 @@
 import importlib
 import inspect
 import itertools
+import json
 import re
 import subprocess
 import sys
@@ -141,3 +142,11 @@ def test_a_language_that_is_not_known_is_refused_with_those_that_are(words, caps
     said = capsys.readouterr().err
     assert end.value.code == 2 and len(said.splitlines()) == 1
     assert all(language in said for language in LANGUAGES)
+
+
+def test_a_vertex_without_a_direction_is_printed_as_json_all_the_same(capsys):
+    words = ("inspect", "pool", "--bug", "S02", "--pixel", "175", "96", "--spp", "8", "--sample", "1")
+    with pytest.raises(SystemExit):
+        main([*words, "--event", "2", "--json"])
+    document = json.loads(capsys.readouterr().out)
+    assert document["lens"]["vectors"]["wi"] == [None, None, None]

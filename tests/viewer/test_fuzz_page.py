@@ -3,6 +3,7 @@
 The triggers are asked of the panels themselves, so that those of a new panel are among them.
 """
 
+import json
 import random
 import re
 from unittest.mock import MagicMock
@@ -96,6 +97,25 @@ def test_no_state_key_takes_a_value_from_a_page(server, cookie):
     now = after["result"]["state"]
     assert {k for k in state if repr(now.get(k)) == repr(sent[k]) != repr(state[k])} == set()
     assert now["w"] == state["w"]
+
+
+UNKNOWN = [  # places where a planted bug records numbers that are none
+    "scene=pool&spp=8&bug=S02&x=175&y=96&path=1&event=2",
+    "scene=glass_slab&width=24&height=24&spp=4&bug=S02&x=17&y=17&path=2&event=13",
+    "scene=materials&width=24&height=14&spp=4&bug=S08&x=3&y=6&path=0&event=2",
+]
+
+
+def test_nothing_that_the_page_is_told_is_a_number_that_json_does_not_have(server, cookie):
+    tabs = [panel.name for panel in all_panels() if panel.place == "tab"]
+    for link in UNKNOWN:
+        calls = [("trame.trigger", [*call, {}]) for call in (["open", [link]], ["lobes", []])]
+        for tab in tabs:
+            calls += [("trame.trigger", ["look", [tab], {}]), ("trame.state.get", [])]
+        replies = talk(server, cookie, *calls, ("trame.trigger", ["truth", [], {}]))
+        assert replies[-1]["result"]["link"] == link
+        for reply in replies:
+            json.dumps(reply, allow_nan=False, default=len)  # bytes go as they are
 
 
 def test_all_that_was_told_on_the_terminal_is_one_line_each(server, cookie):

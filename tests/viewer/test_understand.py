@@ -251,6 +251,15 @@ def test_bounces_that_do_not_go_there_are_seen(bug):
     assert judged(seen, Speaker("en"))["verdict"].startswith("✗")
 
 
+def test_a_dirac_lobe_that_is_missed_or_has_no_direction_is_seen():
+    """S02 goes on where all is reflected, in a direction that is no number."""
+    record = recorded("pool", 175, 96, width=192, height=192, spp=8, bug="S02")
+    seen = lens.over(tracer.load("pool").at(record.settings), planted(record.settings), record, 1, 2)
+    counts = {c.where: (c.observed, c.expected) for c in seen.counts if isinstance(c.where, str)}
+    assert counts == {"reflection": (0, 1.0), "nowhere": (DRAWS, 0.0)}
+    assert judged(seen, Speaker("en"))["judged"] == "warning"
+
+
 def test_the_terms_behind_f_are_the_event_s_and_head_on_those_of_the_normal():
     seen, event, _ = lens_of("materials", 20, 40, "bounce", width=64, height=64)
     for name in ("F", "D", "G1", "G2"):

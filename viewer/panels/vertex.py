@@ -105,7 +105,9 @@ def _plane(lens):
     angles, *curves = lens.plane
     scaled = [np.round(curve / (curve.max() or 1.0), 4).tolist() for curve in curves]
     vectors = [
-        {"name": n, "symbol": NAMES[n], "at": [float(w[0]), float(w[2])]} for n, w in _apart(lens.vectors)
+        {"name": n, "symbol": NAMES[n], "at": [float(w[0]), float(w[2])]}
+        for n, w in _apart(lens.vectors)
+        if np.isfinite(w).all()
     ]
     return {"angles": angles.tolist(), "curves": scaled, "vectors": vectors, "up": lens.sides[0]}
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.events import LOBES
+from viewer.understanding.lobes import diracs
 
 DRAWS = 2048
 RINGS, SECTORS = 4, 8  # cells of equal solid angle on a side, into which they are counted
@@ -52,7 +53,7 @@ def drawn(vertex, steps):
 
 def counted(vertex, shown, sample):
     """The Counts of draws: cells of each side, Dirac lobes, and what goes nowhere."""
-    goes = sample.pdf > 0.0
+    goes = (sample.pdf > 0.0) & np.isfinite(shown).all(axis=0)
     smooth, cell = goes & ~sample.delta, _cell(shown)
     shares = _expected(vertex)
     total = 0.0 if shares is None else float(sum(share.sum() for share in shares.values()))
@@ -63,11 +64,13 @@ def counted(vertex, shown, sample):
         for k, count in enumerate(counts.tolist()):
             expected = None if shares is None else float(shares[side][k])
             yield Count((side, k // SECTORS, k % SECTORS), count, expected)
-    for lobe in np.unique(sample.lobe[goes & sample.delta]):
-        of_lobe = goes & sample.delta & (sample.lobe == lobe)
-        chance = float(np.median(sample.pdf[of_lobe]))
+    right = {dirac.name: dirac.p for dirac in diracs(vertex)}
+    for name in sorted(right.keys() | {LOBES[int(lobe)] for lobe in sample.lobe[goes & sample.delta]}):
+        of_lobe = goes & sample.delta & (sample.lobe == LOBES.index(name))
+        # a lobe so rare that the material itself did not choose it is taken at the tracer's word
+        chance = right[name] if name in right else float(np.median(sample.pdf[of_lobe]))
         total, inside = total + chance, inside + int(of_lobe.sum())
-        yield Count(LOBES[int(lobe)], int(of_lobe.sum()), chance)
+        yield Count(name, int(of_lobe.sum()), chance)
     if inside < DRAWS or (shares is not None and total < 1.0 - SHARP):
         yield Count("nowhere", DRAWS - inside, None if shares is None else max(1.0 - total, 0.0))
 

@@ -72,8 +72,12 @@ def _sampled(vertex):
     return vertex.turned(sample.wi), sample
 
 
+def diracs(vertex):
+    """The Diracs of a Vertex that are not too rare to be chosen in TRIES."""
+    return tuple(_diracs(*_sampled(vertex)))
+
+
 def _diracs(shown, sample):
-    """Every Dirac lobe that was drawn."""
     goes = sample.delta & (sample.pdf > 0.0)
     for lobe in np.unique(sample.lobe[goes]):
         k = int(np.flatnonzero(goes & (sample.lobe == lobe))[0])
