@@ -1,10 +1,14 @@
 """What tests of the gl engine share: mistakes in its shader, and its picture beside NumPy's."""
 
+import numpy as np
+from meshes import icosphere
 from suite import ROOT
 
 import tracer
 from tracer import Settings
 from tracer.engine.gl import source
+from tracer.scene import Scene
+from tracer.shape import Mesh
 from tracer.testing import z_test
 
 ALPHA = 1e-4  # chance that one comparison of pictures fails though all is right
@@ -93,3 +97,24 @@ def kinds_of_light(**more):
             **more,
         }
     )
+
+
+def under_the_sky(vertices, faces, **more):
+    """A grey mesh in front of the camera, and nothing else, under a bright sky."""
+    description = {
+        "type": "scene",
+        "sensor": {"type": "perspective", "fov": 90},
+        "sky": {"type": "constant", "radiance": 1.0},
+        "grey": {"type": "diffuse", "reflectance": 0.8},
+        "mesh": {"type": "sphere", "center": [0, 0, 2], "radius": 1, "bsdf": "grey"},
+    }
+    made = tracer.load_dict(description).definition
+    surface = made.surfaces[0]._replace(shape=Mesh("mesh", vertices, faces, **more))
+    return Scene(made._replace(surfaces=(surface,), source=None), np.float32)
+
+
+def blob():
+    """5120 triangles with hollows that hide the sky."""
+    vertices, faces = icosphere(4)
+    vertices = vertices * (1.0 + 0.3 * np.sin(9.0 * vertices).prod(axis=1, keepdims=True))
+    return under_the_sky(vertices + [0, 0, 1.6], faces)

@@ -31,7 +31,7 @@ def gl():
     try:
         return device()
     except TracerError as error:
-        return missing(f"OpenGL 4.3 ({error})")
+        return missing(f"OpenGL 4.1 ({error})")
 
 
 def castray(*words, cwd=ROOT, env=None, timeout=300):

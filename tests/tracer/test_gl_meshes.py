@@ -9,7 +9,7 @@ import shaders
 import suite
 from benchmarks.scenes import ball, box
 from meshes import icosphere
-from shaders import small
+from shaders import blob, small, under_the_sky
 
 import tracer
 from tracer import Settings
@@ -43,27 +43,6 @@ def box_with_balls():
 @pytest.mark.slow
 def test_nearly_all_paths_among_large_meshes_are_the_same_paths():
     assert same_paths.share(box_with_balls(), Settings(width=32, height=32, spp=4)) >= 0.999
-
-
-def under_the_sky(vertices, faces, **more):
-    """A grey mesh in front of the camera, and nothing else, under a bright sky."""
-    description = {
-        "type": "scene",
-        "sensor": {"type": "perspective", "fov": 90},
-        "sky": {"type": "constant", "radiance": 1.0},
-        "grey": {"type": "diffuse", "reflectance": 0.8},
-        "mesh": {"type": "sphere", "center": [0, 0, 2], "radius": 1, "bsdf": "grey"},
-    }
-    made = tracer.load_dict(description).definition
-    surface = made.surfaces[0]._replace(shape=Mesh("mesh", vertices, faces, **more))
-    return Scene(made._replace(surfaces=(surface,), source=None), np.float32)
-
-
-def blob():
-    """5120 triangles with hollows that hide the sky."""
-    vertices, faces = icosphere(4)
-    vertices = vertices * (1.0 + 0.3 * np.sin(9.0 * vertices).prod(axis=1, keepdims=True))
-    return under_the_sky(vertices + [0, 0, 1.6], faces)
 
 
 @pytest.mark.slow

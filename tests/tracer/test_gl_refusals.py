@@ -91,9 +91,15 @@ def test_without_a_driver_it_says_what_the_driver_lacks(afresh, monkeypatch):
         raise RuntimeError("no display\nanywhere")
 
     monkeypatch.setattr(moderngl, "create_standalone_context", none)
-    with pytest.raises(TracerError, match="a driver with OpenGL 4.3 .*: no display anywhere") as error:
+    with pytest.raises(TracerError, match="a driver with OpenGL 4.1: no display anywhere") as error:
         tracer.render(loaded("furnace"), small(), engine="gl")
     assert "\n" not in str(error.value)
+
+
+def test_an_older_opengl_is_refused_with_its_version(gl, afresh, monkeypatch):
+    monkeypatch.setattr(device, "LEAST", 990)
+    with pytest.raises(TracerError, match=r"OpenGL 9.9: this one has OpenGL \d\.\d;.* choose engine numpy"):
+        tracer.render(loaded("furnace"), small(), engine="gl")
 
 
 def test_auto_takes_it_only_where_a_graphics_card_draws(gl, monkeypatch):

@@ -52,7 +52,7 @@ def render(
     output
         Where the picture goes; SCENE.png in this folder unless said.
     engine
-        numpy; gl, which traces on the graphics card (needs moderngl and OpenGL 4.3) and gives the same
+        numpy; gl, which traces on the graphics card (needs moderngl and OpenGL 4.1) and gives the same
         picture but for rounding; or auto: gl where there is a graphics card and it can do what is asked.
     workers
         Most processes to use (default: one for each core). The picture is the same for any number.

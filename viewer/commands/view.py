@@ -43,7 +43,7 @@ def view(
         What the picture is compared with: a bug of the zoo, right (the tracer without a bug), a picture's
         file (such as your own), or a recording's folder.
     engine
-        Who makes the picture: numpy; gl, on the graphics card (needs moderngl and OpenGL 4.3), and what it
+        Who makes the picture: numpy; gl, on the graphics card (needs moderngl and OpenGL 4.1), and what it
         cannot do, such as a bug, by NumPy; or auto: gl where there is a graphics card. The paths that you
         pick are NumPy's: the same but for rounding.
     """

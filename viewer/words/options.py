@@ -15,11 +15,11 @@ WORDS = {
         "option.view.port": "在 127.0.0.1 的哪个端口监听（默认：任一空闲端口）。",
         "option.view.browser": "如有浏览器就打开它。",
         "option.view.compare": "图像与什么对比：错误动物园中的一种错误；right，即没有错误的追踪器；一个图像文件，例如你自己的；或一份记录的文件夹。",
-        "option.view.engine": "由谁画图像：numpy；gl，在显卡上（需要 moderngl 和 OpenGL 4.3），它做不到的，例如植入的错误，由 NumPy 来画；或 auto：有显卡就用 gl。点选的路径由 NumPy 追踪：除舍入外相同。",
+        "option.view.engine": "由谁画图像：numpy；gl，在显卡上（需要 moderngl 和 OpenGL 4.1），它做不到的，例如植入的错误，由 NumPy 来画；或 auto：有显卡就用 gl。点选的路径由 NumPy 追踪：除舍入外相同。",
         # castray render
         "option.render.scene": "场景文件，或 castray 自带场景的名字。",
         "option.render.output": "图像写到哪里；不写则为当前文件夹里的 SCENE.png。",
-        "option.render.engine": "numpy；gl，在显卡上追踪（需要 moderngl 和 OpenGL 4.3），图像除舍入外相同；或 auto：有显卡、且它做得到所要求的，就用 gl。",
+        "option.render.engine": "numpy；gl，在显卡上追踪（需要 moderngl 和 OpenGL 4.1），图像除舍入外相同；或 auto：有显卡、且它做得到所要求的，就用 gl。",
         "option.render.workers": "最多用多少个进程（默认：每个核心一个）。无论多少，图像都相同。",
         "option.render.cluster": "dask.distributed 调度器的地址，例如 tcp://127.0.0.1:8786，由它的工作进程来做（需要软件包 distributed，那里也要有 castray）。那些机器与本机同类时，图像相同。中断之后，用同一条命令接着做。",
         "option.render.until_error": "图像按 16 x 16 像素分块，一块的相对误差（se^2 / (mean^2 + 0.01) 的均方根）小到这个值就停下；此时 --spp 是上限（不写则为 4096）。",

@@ -4,15 +4,17 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 
+from tracer.engine.gl.compute import Compute
+from tracer.engine.gl.fragments import Fragments
 from tracer.settings import TracerError
 
-LEAST = 430  # compute shaders and storage buffers
+LEAST = Fragments.version
 _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "swrast", "gdi generic")
 
 
 @cache
 def device():
-    """The moderngl context. TracerError with what is missing: the package, OpenGL, or compute shaders.
+    """The moderngl context. TracerError with what is missing: the package, OpenGL, or a version of it.
 
     On Linux by EGL, which needs neither a screen nor a window system.
     """
@@ -42,8 +44,8 @@ def device():
         context.release()
         said.append(f"this one has OpenGL {version}")
     raise TracerError(
-        f"engine: gl needs a driver with OpenGL {LEAST // 100}.{LEAST // 10 % 10} (compute shaders): "
-        f"{'; '.join(said)}; choose engine numpy"
+        f"engine: gl needs a driver with OpenGL {LEAST // 100}.{LEAST // 10 % 10}: {'; '.join(said)}; "
+        "choose engine numpy"
     )
 
 
@@ -52,9 +54,14 @@ def renderer():
     return device().info["GL_RENDERER"]
 
 
+def stage():
+    """What runs shaders here: Compute, or Fragments where there are no compute shaders."""
+    return Compute if device().version_code >= Compute.version else Fragments
+
+
 def largest():
     """Most bytes of tables that a shader reads."""
-    return device().info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]
+    return stage().largest(device().info)
 
 
 def is_hardware():

@@ -18,7 +18,6 @@ from tracer.light.sample import Ball
 from tracer.sampler.lattice import COMPONENTS, DEPTHS
 from tracer.sampler.numbers import USES
 
-GROUP = 64  # invocations side by side
 _STRATEGIES = {"mis": "MIS", "light": "BY_LIGHT", "bsdf": "BY_BSDF"}
 
 
@@ -29,10 +28,14 @@ def text(name):
 
 
 class Source:
-    """A shader's text, and the `tables` it reads, Packed. watched: vertices of each path to keep."""
+    """A shader's text, and the `tables` it reads, Packed.
 
-    def __init__(self, scene, settings, watched=0):
+    stage: Compute or Fragments, which run it; watched: vertices of each path to keep.
+    """
+
+    def __init__(self, scene, settings, stage, watched=0):
         self.scene, self.settings, self.watched = scene, settings, watched
+        self._stage = stage
         self.faces, self.extent = tables.faces_of(scene)
         self.tables, self._accessors = Packed(), []
         self._kinds = [
@@ -51,10 +54,10 @@ class Source:
         self.text = "\n".join(self._parts())
 
     def _parts(self):
-        yield "#version 430"
+        yield f"#version {self._stage.version}"
         yield from (f"#define {name} {value}" for name, value in self._defines())
         yield "uniform uint seed; uniform int last_depth; uniform float said_survival;"
-        for name in ("compute/tables", "tables", "frame", "warp", "sampler/numbers"):
+        for name in (f"{self._stage.folder}/tables", "tables", "frame", "warp", "sampler/numbers"):
             yield text(name)
         yield from self._sampler()
         for name in ("camera", "shape/rays", "shape/start", "shape/rectangle", "shape/sphere"):
@@ -70,7 +73,7 @@ class Source:
         if self.scene.bsdf.any_textured:
             self._textures()
             yield text("texture")
-        for name in ("watching", "integrator/path", "main", "compute/main"):
+        for name in ("watching", "integrator/path", "main", f"{self._stage.folder}/main"):
             yield text(name)
         yield from self._accessors
 
@@ -91,7 +94,7 @@ class Source:
         surround = scene.lights is not None and scene.lights.surround
         fixed = settings.roulette not in ("auto", "off")
         yield from {
-            "GROUP": GROUP, "WATCHED": self.watched,
+            **self._stage.defines, "WATCHED": self.watched,
             **{kind.upper(): k for k, kind in enumerate(tables.KINDS)},
             "PI": "3.14159265", "TINY": "1.17549435e-38", "INFINITE": "3.0e38",
             "MIS": 0, "BY_LIGHT": 1, "BY_BSDF": 2, "STRATEGY": _STRATEGIES[strategy],

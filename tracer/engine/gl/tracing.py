@@ -5,9 +5,9 @@ from functools import lru_cache
 import numpy as np
 
 from tracer import film
-from tracer.engine.gl.device import device, largest
+from tracer.engine.gl.device import device, largest, stage
 from tracer.engine.gl.refusals import refuse, refuse_size
-from tracer.engine.gl.source import GROUP, Source
+from tracer.engine.gl.source import Source
 from tracer.engine.waves import Result
 from tracer.sampler import pack_pixel
 from tracer.settings import TracerError
@@ -17,10 +17,10 @@ SHADERS = 16  # that are kept ready
 
 
 @lru_cache(SHADERS)
-def _compiled(context, text):
+def _compiled(context, stage, text):
     """The shader of that text: where a scene differs by numbers of its tables only, it is compiled once."""
     try:
-        return context.compute_shader(text)
+        return stage.compiled(context, text)
     except Exception as error:  # moderngl's own, which has no name outside it
         said = next((line for line in str(error).splitlines() if "error" in line.lower()), error)
         raise TracerError(
@@ -38,13 +38,12 @@ class Tracer:
         scene = scene.at(settings)
         refuse(scene, settings, steps)
         self.settings, self._watched = settings, WATCHED if watched else 0
-        source = Source(scene, settings, self._watched)
-        context = device()
+        context, runs = device(), stage()
+        source = Source(scene, settings, runs, self._watched)
         refuse_size(source.tables.size, largest())
         context.gc()
-        self._tables = context.buffer(source.tables.tobytes())
-        self._shader = _compiled(context, source.text)
-        self._buffers = {}
+        shader = _compiled(context, runs, source.text)
+        self._run = runs(context, shader, source.tables.tobytes(), self._watched)
         fixed = settings.roulette not in ("auto", "off")
         self._numbers = {
             "seed": settings.seed,
@@ -67,37 +66,10 @@ class Tracer:
         `first`, or (P,) numbers, on."""
         pixels = np.empty((x.size, 2), np.uint32)
         pixels[:, 0], pixels[:, 1] = pack_pixel(x, y), first
-        paths = x.size * samples
-        self._put(1, pixels.tobytes())
-        out = self._room(2, 16 * paths)
-        if self._watched:
-            self._room(3, 32 * self._watched * paths)
-            self._room(4, 4 * paths)
-        self._tables.bind_to_storage_buffer(0)
-        for binding, table in self._buffers.items():
-            table.bind_to_storage_buffer(binding)
-        self._say(**self._numbers, paths=paths, samples=samples)
-        self._shader.run(-(-paths // GROUP))
-        return np.frombuffer(out.read(16 * paths), np.float32).reshape(-1, samples, 4)
+        numbers = {**self._numbers, "samples": samples}
+        return self._run(pixels, x.size * samples, numbers).reshape(-1, samples, 4)
 
     def vertices(self, paths):
         """What the last call kept of its paths: (number (N, 5, 4) int32, p (N, 5, 3), end (N,))."""
-        kept = np.frombuffer(self._buffers[3].read(), [("number", "4i4"), ("p", "4f4")])
-        kept = kept[: paths * WATCHED].reshape(-1, WATCHED)
-        ends = np.frombuffer(self._buffers[4].read(), np.int32)[:paths]
-        return kept["number"], kept["p"][..., :3], ends
-
-    def _say(self, **numbers):
-        """Set uniforms; those that a shader has no use for are not there."""
-        for name, value in numbers.items():
-            if name in self._shader:
-                self._shader[name] = value
-
-    def _room(self, binding, size):
-        """A buffer of at least that size."""
-        if binding not in self._buffers or self._buffers[binding].size < size:
-            self._buffers[binding] = device().buffer(reserve=size)
-        return self._buffers[binding]
-
-    def _put(self, binding, data):
-        self._room(binding, len(data)).write(data)
+        number, p = self._run.vertices(paths)
+        return number, p[..., :3], p[:, 0, 3].astype(np.int32)

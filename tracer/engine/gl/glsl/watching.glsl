@@ -9,7 +9,7 @@
 #if WATCHED
 struct Vertex {
     ivec4 number;  // primitive; lobe of the bounce; light sample: 0 none, 1 hidden, 2 seen; whether it was reached
-    vec4 p;
+    vec4 p;        // and why the path ended
 };
 
 Vertex kept[WATCHED];
@@ -44,6 +44,8 @@ vec3 end(int reason, vec3 L)
     reason_of_end = reason;
     return L;
 }
+
+Vertex watched_vertex(int k) { return Vertex(kept[k].number, vec4(kept[k].p.xyz, float(reason_of_end))); }
 #else
 void begin_path() {}
 void seen_vertex(int depth, int primitive, vec3 p) {}

@@ -8,7 +8,6 @@ layout(std430, binding = 1) readonly buffer Pixels { uvec2 pixels[]; };      // 
 layout(std430, binding = 2) writeonly buffer Radiance { vec4 radiance[]; };  // and the number of rays
 #if WATCHED
 layout(std430, binding = 3) writeonly buffer Vertices { Vertex vertices[]; };
-layout(std430, binding = 4) writeonly buffer Ends { int ends[]; };
 #endif
 
 uvec2 pixel_at(uint k) { return pixels[k]; }
@@ -21,7 +20,6 @@ void main()
     radiance[path] = traced(path);
 #if WATCHED
     for (int k = 0; k < WATCHED; ++k)
-        vertices[path * uint(WATCHED) + uint(k)] = kept[k];
-    ends[path] = reason_of_end;
+        vertices[path * uint(WATCHED) + uint(k)] = watched_vertex(k);
 #endif
 }
