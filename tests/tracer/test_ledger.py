@@ -75,7 +75,7 @@ def test_many_pixels_are_the_sums_of_their_events(suite_seed, scene, integrator,
     """200 of them by the default integrator with one whole block of samples; fewer elsewhere."""
     depth = 3 if scene == "furnace" else 4  # the furnace's paths all live to the end
     settings = square(spp, integrator=integrator, seed=suite_seed, max_depth=depth)
-    pixels = PIXELS if (spp, integrator) == (16, "path") else 40
+    pixels = PIXELS if (spp, integrator) == (16, "path") else 10
     adds_up(loaded(scene), settings, some_pixels(pixels, suite_seed))
 
 
