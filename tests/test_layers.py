@@ -94,17 +94,20 @@ def concept(name):
     return None if above in ("", "tracer") else concept(above)
 
 
+def statements(node, runs=True):
+    """(statement, whether it runs at import) of all below a node; no expression holds an import."""
+    typing = isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+    runs = runs and not isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+    for part in ("body", "orelse", "handlers", "finalbody", "cases"):
+        for inner in getattr(node, part, ()):
+            eager = runs and not (typing and part == "body")
+            yield inner, eager
+            yield from statements(inner, eager)
+
+
 def imports(path):
     """(line, dotted name, whether it runs at import) of every import; `from a import b` counts as a.b."""
-    tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
-    lazy = set()
-    for node in ast.walk(tree):
-        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
-            lazy.update(id(inner) for inner in ast.walk(node) if inner is not node)
-        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
-            lazy.update(id(inner) for body in node.body for inner in ast.walk(body))
-    for node in ast.walk(tree):
-        eager = id(node) not in lazy
+    for node, eager in statements(ast.parse(path.read_text(encoding="utf-8"), str(path))):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name, eager) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

@@ -16,7 +16,7 @@ from functools import partial
 import checks
 import numpy as np
 import pytest
-from cases import INTEGRATORS
+from cases import INTEGRATORS, slow_but
 from stats import mean_and_error
 
 import tracer
@@ -58,7 +58,7 @@ def test_the_furnace_has_its_radiance(suite_seed, integrator, max_depth, precisi
     assert checks.furnace(settings) <= 1.0
 
 
-@pytest.mark.parametrize("max_depth", DEPTHS)
+@pytest.mark.parametrize("max_depth", slow_but(DEPTHS, 3, 50))
 @pytest.mark.parametrize(
     "options",
     [

@@ -272,6 +272,7 @@ def test_the_page_names_every_field(cornell):
     assert page == castray("log", "--schema").stdout
 
 
+@pytest.mark.slow
 def test_the_command_checks_a_log(written):
     path = written(OUTER, INNER, INNER | {"hit.p": 1})
     done = castray("log", path, "--scene", "cornell")

@@ -72,6 +72,7 @@ def test_points_beside_a_wall_are_named_with_it(written, cornell):
     assert finding.bug is None and "floor" in finding.explanation
 
 
+@pytest.mark.slow
 def test_a_log_in_which_little_is_said_is_not_called_right_without_a_word(written):
     path = written(OUTER, INNER)
     done = castray("doctor", path, "--scene", "cornell")

@@ -89,6 +89,7 @@ def test_a_factor_is_called_a_factor():
         assert first.bugs == (("F04",) if curves == (None,) else ())
 
 
+@pytest.mark.slow
 def test_the_curve_of_the_homework_is_found_and_undone():
     found = opinion(screen(picture(), 0.6))
     assert found.is_right and found.reading.curve == 0.6
@@ -137,6 +138,7 @@ def test_resampling_keeps_the_mean_whatever_the_size():
     assert resampled(values, 37, 23) == pytest.approx(values)
 
 
+@pytest.mark.slow
 def test_the_black_rim_of_the_right_picture_is_no_lost_row():
     """Walls end where no pixel of these sizes does."""
     for side in (33, 64, 100, 200):

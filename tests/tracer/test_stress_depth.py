@@ -9,7 +9,7 @@ import tracemalloc
 import checks
 import numpy as np
 import pytest
-from cases import loaded
+from cases import loaded, slow_but
 from truth import entry, keys
 
 import tracer
@@ -110,7 +110,7 @@ PARTIAL = [key for key in keys("furnace.diffuse.") if "bounces=" in key]
 
 @pytest.mark.statistical
 @both
-@pytest.mark.parametrize("key", PARTIAL)
+@pytest.mark.parametrize("key", slow_but(PARTIAL, *PARTIAL[::2]))
 def test_s55_the_table_of_partial_sums(suite_seed, key, precision):
     """4 standard errors, with light samples and without (see test_furnace for what that means)."""
     p, value = entry(key)

@@ -16,6 +16,7 @@ def test_a_right_tracer_is_found_right():
     assert "No law is broken." in ran.stdout
 
 
+@pytest.mark.slow
 def test_a_wrong_one_is_told_by_its_name_with_both_numbers_in_80_columns():
     ran = castray("doctor", "cornell", *SMALL, "--bug", "D10", env=NARROW)
     assert ran.returncode == 1, ran.stderr

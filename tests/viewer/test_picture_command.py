@@ -42,6 +42,7 @@ def test_a_picture_gives_hypotheses_and_no_findings(folder):
     assert max(map(len, ran.stdout.splitlines()[1:-1])) <= 80
 
 
+@pytest.mark.slow
 def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", "--json", "--spp", 8)
     said = json.loads(ran.stdout)
@@ -51,6 +52,7 @@ def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     assert first["evidence"]["left_wall"]["yours"][1] > 3.0
 
 
+@pytest.mark.slow
 def test_a_right_picture_is_called_right_and_drawn_beside_the_reference(folder, tmp_path):
     out = tmp_path / "beside.png"
     ran = castray("--lang", "zh", "doctor", folder / "right.png", "--scene", "cornell", "-o", out)

@@ -1,6 +1,7 @@
 """A recording in the viewer: its scene, its settings, the place asked for."""
 
 import json
+import shutil
 
 import pytest
 
@@ -14,11 +15,17 @@ from viewer.recorded import compared, is_recording
 SETTINGS = tracer.Settings(width=6, height=5, spp=3, max_depth=5, bug="E01")
 
 
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    path, steps = tmp_path_factory.mktemp("recorded") / "box", zoo.planted(SETTINGS)
+    tracer.record(tracer.load("cornell_unit"), SETTINGS, path, "events", steps=steps)
+    return path
+
+
 @pytest.fixture
-def box(tmp_path):
-    steps = zoo.planted(SETTINGS)
-    tracer.record(tracer.load("cornell_unit"), SETTINGS, tmp_path / "box", "events", steps=steps)
-    return tmp_path / "box"
+def box(recorded, tmp_path):
+    """A recording of one test's own."""
+    return shutil.copytree(recorded, tmp_path / "box")
 
 
 @pytest.fixture
@@ -43,6 +50,7 @@ def test_a_recording_opens_at_its_first_path(box, opened, capsys):
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.slow
 def test_the_command_that_a_query_prints_opens_the_event(box, opened, capsys):
     import shlex
 
@@ -93,6 +101,7 @@ def test_what_cannot_be_is_one_line(box, opened, monkeypatch, capsys, words, sai
     assert sorted(path.name for path in box.parent.iterdir()) == ["box"]
 
 
+@pytest.mark.slow
 def test_the_mask_shows_the_pixels_that_match(box, monkeypatch, capsys):
     monkeypatch.chdir(box.parent)
     assert run("query", "box", "x = 2 AND y = 3", "--mask", "m.npy") == 0

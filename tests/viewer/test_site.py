@@ -69,6 +69,7 @@ def test_every_link_of_the_pages_leads_to_a_page_that_is_built():
         assert {target for target in targets if target} <= known
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tag", LANGUAGES)
 def test_the_map_has_every_formula_with_its_function_and_its_test(tag):
     text, anchors = page(tag), set(re.findall(r'id="([^"]+)"', page("reference.html")))

@@ -26,7 +26,8 @@ def narrow(monkeypatch):
 
 @pytest.fixture(scope="module")
 def recordings(tmp_path_factory):
-    """A folder with recordings of the right tracer, a wrong one, another seed, and rows of paths only."""
+    """A folder with recordings of the right tracer, a wrong one, another seed, and rows of paths only; and two
+    logs."""
     folder = tmp_path_factory.mktemp("twins")
     scene = tracer.load("cornell_unit")
     for name, options, level in (
@@ -37,6 +38,8 @@ def recordings(tmp_path_factory):
     ):
         settings = tracer.Settings(width=8, height=6, spp=4, integrator="direct", **options)
         tracer.record(scene, settings, folder / name, level, steps=zoo.planted(settings))
+    for name in ("mine.jsonl", "yours.jsonl"):
+        (folder / name).touch()
     return folder
 
 
@@ -82,6 +85,7 @@ def test_the_commands_it_prints_show_the_event(capsys, opened):
         assert (session.cursor.x, session.cursor.y) == (first["x"], first["y"])
 
 
+@pytest.mark.slow
 def test_two_recordings_are_compared_and_open_where_they_part(recordings, capsys, opened):
     right, wrong = recordings / "right", recordings / "wrong"
     assert run("twin", right, right) == 0
