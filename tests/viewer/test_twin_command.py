@@ -26,8 +26,7 @@ def narrow(monkeypatch):
 
 @pytest.fixture(scope="module")
 def recordings(tmp_path_factory):
-    """A folder with recordings of the right tracer, a wrong one, another seed, and rows of paths only; and two
-    logs."""
+    """Recordings of the right tracer, a wrong one, another seed, and rows of paths only; two empty logs."""
     folder = tmp_path_factory.mktemp("twins")
     scene = tracer.load("cornell_unit")
     for name, options, level in (
