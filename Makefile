@@ -9,8 +9,8 @@
 
 PYTHON ?= python3
 RUN := .venv/bin/python -m
-# Two workers that take files in the order of tests/conftest.py.
-SHARED := -n 2 --dist loadfile --no-loadscope-reorder
+# Workers take whole files, in the order of tests/conftest.py.
+FILES := --dist loadfile --no-loadscope-reorder
 
 # Old pip takes the first for the build too, new pip the second.
 export PIP_CONSTRAINT := constraints.txt
@@ -28,10 +28,11 @@ run: .venv/.run
 test: .venv/.dev system
 	@# Those that hold a clock run by themselves (5: there are none).
 	$(RUN) pytest -m timed || [ $$? -eq 5 ]
-	$(RUN) pytest $(SHARED) -m "not timed"
+	@# Three on two cores: tests of the browser and of commands wait a good part of their time.
+	$(RUN) pytest -n 3 $(FILES) -m "not timed"
 
 quick: .venv/.dev
-	$(RUN) pytest $(SHARED) -m "not slow and not browser and not timed"
+	$(RUN) pytest -n 2 $(FILES) -m "not slow and not browser and not timed"
 
 check: .venv/.dev
 	$(RUN) ruff format --check .
