@@ -45,7 +45,7 @@ def view(
     engine
         Who makes the picture: numpy; gl, on the graphics card (needs moderngl and OpenGL 4.1), and what it
         cannot do, such as a bug, by NumPy; or auto: gl where there is a graphics card. The paths that you
-        pick are NumPy's: the same but for rounding.
+        pick are NumPy's: nearly all the same but for rounding.
     """
     from tracer.picture import is_picture
     from viewer import app as viewer_app

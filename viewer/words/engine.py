@@ -3,7 +3,7 @@
 WORDS = {
     "en": {
         "engine.gl": "by gl: {renderer}",
-        "engine.gl.title": "The engine gl made this picture ({renderer}). The paths that you pick are traced by NumPy: they are the same, and so are their numbers, but for rounding.",
+        "engine.gl.title": "The engine gl made this picture ({renderer}). The paths that you pick are traced by NumPy: nearly all are the same but for rounding.",
         "engine.numpy": "by NumPy: {why}",
         "engine.numpy.title": "NumPy made this picture: {why}",
         "error.gl_bug": "gl cannot do bug {bug}, which replaces {steps}",
@@ -23,7 +23,7 @@ WORDS = {
     },
     "zh": {
         "engine.gl": "由 gl 绘制：{renderer}",
-        "engine.gl.title": "这幅图像由引擎 gl 绘制（{renderer}）。点选的路径由 NumPy 追踪：除舍入外，路径和数值都相同。",
+        "engine.gl.title": "这幅图像由引擎 gl 绘制（{renderer}）。点选的路径由 NumPy 追踪：除舍入外，几乎都是相同的路径。",
         "engine.numpy": "由 NumPy 绘制：{why}",
         "engine.numpy.title": "这幅图像由 NumPy 绘制：{why}",
         "error.gl_bug": "gl 不支持错误 {bug}，它替换了步骤 {steps}",

@@ -15,7 +15,7 @@ WORDS = {
         "option.view.port": "在 127.0.0.1 的哪个端口监听（默认：任一空闲端口）。",
         "option.view.browser": "如有浏览器就打开它。",
         "option.view.compare": "图像与什么对比：错误动物园中的一种错误；right，即没有错误的追踪器；一个图像文件，例如你自己的；或一份记录的文件夹。",
-        "option.view.engine": "由谁画图像：numpy；gl，在显卡上（需要 moderngl 和 OpenGL 4.1），它做不到的，例如植入的错误，由 NumPy 来画；或 auto：有显卡就用 gl。点选的路径由 NumPy 追踪：除舍入外相同。",
+        "option.view.engine": "由谁画图像：numpy；gl，在显卡上（需要 moderngl 和 OpenGL 4.1），它做不到的，例如植入的错误，由 NumPy 来画；或 auto：有显卡就用 gl。点选的路径由 NumPy 追踪：除舍入外几乎都相同。",
         # castray render
         "option.render.scene": "场景文件，或 castray 自带场景的名字。",
         "option.render.output": "图像写到哪里；不写则为当前文件夹里的 SCENE.png。",
