@@ -8,7 +8,6 @@ from viewer.surfaces import COLOURS as PATHS
 from viewer.surfaces import VIEW_ANGLE, rgb
 from viewer.traces import LONG, NAMES
 from viewer.understanding.draws import OFF, RINGS, SECTORS
-from viewer.understanding.lobes import lobes
 
 # In the order in which they are drawn: what is seen through comes last.
 COLOURS = {
@@ -20,11 +19,11 @@ COLOURS = {
     "tried_blocked": PATHS["blocked"],
     "tried_idle": rgb("#a9b2c2"),
     "lobe_p": rgb("#5fc7d8"),
+    "lobe_f": rgb("#ffd257"),
     "more": rgb("#ff7a70"),
     "fewer": rgb("#668cff"),
-    "lobe_f": rgb("#ffd257"),
 }
-OPACITY = {"lobe_f": 0.5, "more": 0.5, "fewer": 0.5}
+OPACITY = {"lobe_f": 0.5, "more": 0.4, "fewer": 0.3}
 LIT = ("lobe_f",)
 AWAY, ABOVE = 5.2, 0.45  # where it is looked at from: so many times `reach`, so much of it along the normal
 NO_LINES = np.zeros((0, 3)), np.zeros((0, 2), int)
@@ -44,7 +43,7 @@ class Hemisphere:
     def __init__(self, lens, size, say):
         self.lens, self.reach, self._thin = lens, LONG * size, 0.0016 * size
         self._p = np.asarray(lens.vertex.hit["p"], float)
-        self.lobes = lobes(lens.vertex)
+        self.lobes = lens.lobes
         self.drawn = dict.fromkeys(COLOURS, solids.EMPTY)
         self.labels = []
         self._shell()
@@ -69,13 +68,11 @@ class Hemisphere:
 
     def legend(self, say):
         """What the marks mean, with the largest values: [{kind, text}]."""
-        sheets = self.lobes.sheets
         rows = [
-            {"kind": f"lobe_{name}", "text": say(f"lens.{name}", most=short(most))}
-            for name, most in (("f", max((s.f.max() for s in sheets), default=0.0)),
-                               ("p", max((s.p.max() for s in sheets), default=0.0)))
-            if sheets
-        ]  # fmt: skip
+            {"kind": f"lobe_{name}", "text": say(f"lens.{name}", most=short(self.lobes.peak(name)))}
+            for name in "fp"
+            if self.lobes.sheets
+        ]
         if self.lobes.diracs:
             rows += [{"kind": "lobe_f", "text": say("lobes.f")}, {"kind": "lobe_p", "text": say("lobes.p")}]
         for name in ("more", "fewer"):

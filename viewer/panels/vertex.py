@@ -70,7 +70,8 @@ def _drawn(lens, say):
         for name, sheet in zip("fp", sheets, strict=True):
             most = float(np.nanmax(sheet, initial=0.0))
             bytes_ = np.round(255 * np.sqrt(np.nan_to_num(sheet) / (most or 1.0))).astype(int)
-            title = say(f"lens.{name}", most=short(most)) if most else say(f"lens.{name}.dirac")
+            peak = lens.lobes.peak(name, side)  # which the disc's cells may miss
+            title = say(f"lens.{name}", most=short(peak)) if peak else say(f"lens.{name}.dirac")
             rows["sheets"].append({"title": title + where, "values": bytes_.ravel().tolist()})
         here = lens.drawn[:, side * lens.drawn[2] > 0][:, :FAINT]
         rows["drawn"] = np.round(on_disc(here), 3).T.tolist()

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from tracer.events import LOBES
-from viewer.understanding.lobes import diracs
 
 DRAWS = 2048
 RINGS, SECTORS = 4, 8  # cells of equal solid angle on a side, into which they are counted
@@ -51,8 +50,8 @@ def drawn(vertex, steps):
     return vertex.turned(surface.frame.to_local(frame.to_world(sample.wi))), sample
 
 
-def counted(vertex, shown, sample):
-    """The Counts of draws: cells of each side, Dirac lobes, and what goes nowhere."""
+def counted(vertex, shown, sample, diracs):
+    """The Counts of draws: cells of each side, Dirac lobes, what goes nowhere. diracs: the material's own."""
     goes = (sample.pdf > 0.0) & np.isfinite(shown).all(axis=0)
     smooth, cell = goes & ~sample.delta, _cell(shown)
     shares = _expected(vertex)
@@ -64,7 +63,7 @@ def counted(vertex, shown, sample):
         for k, count in enumerate(counts.tolist()):
             expected = None if shares is None else float(shares[side][k])
             yield Count((side, k // SECTORS, k % SECTORS), count, expected)
-    right = {dirac.name: dirac.p for dirac in diracs(vertex)}
+    right = {dirac.name: dirac.p for dirac in diracs}
     for name in sorted(right.keys() | {LOBES[int(lobe)] for lobe in sample.lobe[goes & sample.delta]}):
         of_lobe = goes & sample.delta & (sample.lobe == LOBES.index(name))
         # a lobe so rare that the material itself did not choose it is taken at the tracer's word

@@ -6,6 +6,7 @@ import numpy as np
 
 from lessons.zoo import planted
 from viewer.understanding import draws
+from viewer.understanding.lobes import Lobes, lobes
 from viewer.understanding.places import places
 from viewer.understanding.samples import outcome
 from viewer.understanding.vertex import Vertex
@@ -37,6 +38,7 @@ class Lens:
     vectors: {name: (3,)} n, ng, wo, and wi, h where there are any. sheets: (sides, 2, SIDE, SIDE) f |cos| and
     p. plane: (angles, f |cos|, p) in the plane of n and wo, degrees from n, wo's is negative. drawn: (3, D)
     directions of bounces drawn anew, counts: the Counts of them. terms: {name: (here, head on)} behind f.
+    lobes: the Lobes there.
     """
 
     vertex: Vertex
@@ -47,6 +49,7 @@ class Lens:
     drawn: np.ndarray
     counts: tuple
     terms: dict
+    lobes: Lobes
 
     @property
     def sides(self):
@@ -105,10 +108,12 @@ def over(scene, steps, record, path, event):
         return None
     with np.errstate(all="ignore"):
         vertex = Vertex(scene, here.hit)
+        found = lobes(vertex)
         drawn, counts = np.zeros((3, 0)), ()
         if steps is not None:
             shown, sample = draws.drawn(vertex, steps)
-            drawn, counts = shown[:, sample.pdf > 0.0], tuple(draws.counted(vertex, shown, sample))
+            drawn = shown[:, sample.pdf > 0.0]
+            counts = tuple(draws.counted(vertex, shown, sample, found.diracs))
         return Lens(
             vertex,
             _vectors(vertex, here.event),
@@ -118,6 +123,7 @@ def over(scene, steps, record, path, event):
             drawn,
             counts,
             _terms(vertex, here.event),
+            found,
         )
 
 

@@ -53,6 +53,11 @@ class Lobes:
     diracs: tuple
     most: float
 
+    def peak(self, name, side=None):
+        """The largest f |cos| ("f") or p ("p") on a side, on both if none is named."""
+        values = [getattr(sheet, name) for sheet in self.sheets if side in (None, sheet.side)]
+        return max((float(v.max()) for v in values), default=0.0)
+
 
 def lobes(vertex):
     """The Lobes of a Vertex, as castray's own material has them."""
@@ -72,12 +77,8 @@ def _sampled(vertex):
     return vertex.turned(sample.wi), sample
 
 
-def diracs(vertex):
-    """The Diracs of a Vertex that are not too rare to be chosen in TRIES."""
-    return tuple(_diracs(*_sampled(vertex)))
-
-
 def _diracs(shown, sample):
+    """Every Dirac lobe that was drawn: all that are not too rare for TRIES."""
     goes = sample.delta & (sample.pdf > 0.0)
     for lobe in np.unique(sample.lobe[goes]):
         k = int(np.flatnonzero(goes & (sample.lobe == lobe))[0])
