@@ -31,6 +31,7 @@ class Server:
         theirs.close()
         self._free = threading.Lock()  # whoever has it has the child
         self._greeted, self._busy, self._refused = False, True, None
+        self._sent = None  # the scene that the child has
         self.renderer = ""  # who draws, as the driver calls it, once that is known
 
     def greet(self):
@@ -54,8 +55,8 @@ class Server:
             if not (self._greeted or self._refused):
                 meanwhile = self._patient(meanwhile)
             self.greet()
-            self._send((scene, settings, steps))
-            self._busy = True
+            self._send((None if scene is self._sent else scene, settings, steps))
+            self._busy, self._sent = True, scene
             try:
                 self._patient(meanwhile)
                 return self._answer(progress)
@@ -145,12 +146,16 @@ class _Stopped(Exception):
 def _serve(line, auto):
     """The child's life: render what is asked until the other end is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    scene = None
     try:
         _greet(line, auto)
         while True:
             asked = line.recv()
-            if asked != _STOP:  # else it came too late
-                line.send(_rendered(line, *asked))
+            if asked == _STOP:  # which came too late
+                continue
+            another, *more = asked
+            scene = scene if another is None else another
+            line.send(_rendered(line, scene, *more))
     except (EOFError, OSError):
         return
 
