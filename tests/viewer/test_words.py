@@ -1,5 +1,6 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
+import ast
 import re
 from dataclasses import fields
 from string import Formatter
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from cases import slow_but
 from logs import INNER, OUTER, write_log
+from suite import ROOT
 
 import tracer
 from lessons import glossary
@@ -195,6 +197,7 @@ BROKEN = (
     "[sensor]\ntype = 'x'",
     "[sensor]\ntype = 'perspectiv'",
     "[sensor",
+    "[sensor]\ntype = 'perspective'\n[box]\ntype = 'cube'\nbsdf = 'whit'",
     "sensor = 3",
     "[light]",
 )
@@ -234,6 +237,30 @@ def test_no_error_is_taken_for_a_more_general_one(key, words):
     chinese = table("zh")[key].format(**{name: f"<{name}>" for name in names(words)})
     if "which" not in names(words) and "kind" not in names(words):
         assert Speaker("zh").error(said) == chinese
+
+
+def raised(node):
+    """The words that a TracerError is raised with, what is filled in as a number or a quoted text; None where
+    they are another error's."""
+    if isinstance(node, ast.Constant):
+        return node.value
+    if not isinstance(node, ast.JoinedStr):
+        return None
+    filled = {114: "'X'"}  # !r
+    parts = [p.value if isinstance(p, ast.Constant) else filled.get(p.conversion, "7") for p in node.values]
+    return None if re.fullmatch(r"[7: ]*", "".join(parts)) else "".join(parts)
+
+
+def test_whatever_a_command_refuses_is_told_in_chinese():
+    errors = [
+        (file.name, raised(node.args[0]))
+        for file in sorted((ROOT / "viewer" / "commands").glob("*.py"))
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "TracerError"
+    ]
+    told = [(name, said) for name, said in errors if said is not None]
+    assert len(told) > 40
+    assert [one for one in told if not re.search(r"[\u4e00-\u9fff]", Speaker("zh").error(one[1]))] == []
 
 
 def test_an_error_that_is_not_in_the_table_keeps_its_own_words():

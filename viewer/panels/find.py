@@ -120,9 +120,8 @@ def _error(desk, say):
     """What is wrong with the query, and where."""
     error, text = desk.error, desk.text
     at = getattr(error, "at", None)
-    words = (
-        say.error(str(error)) if at is None else say("find.error", at=at + 1, words=say.error(error.words))
-    )
+    words = say.error(getattr(error, "words", str(error)))  # the columns there are stand below
+    words = words if at is None else say("find.error", at=at + 1, words=words)
     end = at if at is None else at + max(1, len(_word(text[at:])))
     return {
         "words": words,

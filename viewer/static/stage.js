@@ -83,10 +83,12 @@
           const there = project(eye, label.at, width, height);
           element.hidden = !there; // behind the eye
           if (!there) return;
-          let [x, y] = [clamp(there[0], 14, width - 14), Math.min(there[1], low)];
-          while (taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22)) y += 4;
+          const x = clamp(there[0], 14, width - 14), ideal = clamp(there[1], 12, low);
+          const full = (y) => taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22);
+          let y = ideal; // else the nearest free place below or above
+          for (let k = 1; k < 100 && full(y); k++) y = clamp(ideal + (k % 2 ? 4 : -4) * Math.ceil(k / 2), 12, low);
           taken.push([x, y, element.offsetWidth]);
-          element.style.transform = `translate(${x}px, ${clamp(y, 12, height - 12)}px) translate(-50%, -50%)`;
+          element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
         });
       }
       onMounted(look);

@@ -98,6 +98,8 @@ class Speaker:
                     values = found.groupdict()
                     if "which" in values:  # settings and their two values
                         values["which"] = self.listed(*map(self._differing, values["which"].split(", ")))
+                    if "near" in values:  # several are joined by "or"
+                        values["near"] = self.listed(*values["near"].split(" or "))
                     for inner in values.keys() & INNER:  # a sentence of its own
                         values[inner] = self.error(values[inner])
                     if "kind" in values:
