@@ -13,20 +13,11 @@ WebGL2RenderingContext.prototype.clear = function (...mask) {
   return clear.apply(this, mask);
 };
 """
-# Puts a mark into each frame in which the 3D view shows something else, or the reader stands elsewhere.
-# Chromium tells when a mark was on the screen: composed and drawn, with all that its frame has besides.
+# Puts a mark into each frame in which the 3D view has been drawn or the reader stands elsewhere. Chromium
+# tells when a mark was on the screen: composed and drawn, with all that its frame has besides.
 WATCH = """
 () => {
-  const small = Object.assign(document.createElement("canvas"), {width: 160, height: 120});
-  const g = small.getContext("2d", {willReadFrequently: true}), waiting = new Map();
-  const drawn = () => {
-    g.clearRect(0, 0, 160, 120);
-    g.drawImage(document.querySelector(".stage canvas"), 0, 0, 160, 120);
-    const d = g.getImageData(0, 0, 160, 120).data;
-    let sum = 0;
-    for (let i = 0; i < d.length; i++) sum = (sum * 31 + d[i]) | 0;
-    return sum;
-  };
+  const waiting = new Map();
   const where = () => {
     const table = document.querySelector("[data-testid=event-table]");
     const now = table.querySelector("[data-now=true]");
@@ -43,24 +34,20 @@ WATCH = """
   new PerformanceObserver((list) => {
     for (const { identifier, renderTime } of list.getEntries()) waiting.get(identifier)?.(renderTime);
   }).observe({type: "element"});
-  let seen = window.pictures, picture = null, place = where();
+  let seen = window.pictures, place = where();
   window.changes = [];
   const look = () => {
     requestAnimationFrame(look);
-    let changed = where() !== place;
-    if (window.pictures !== seen) { // reading the canvas back is dear: only in a frame in which it was drawn
-      const now = drawn();
-      changed = changed || now !== picture;
-      [seen, picture] = [window.pictures, now];
-    }
-    if (changed) { place = where(); window.changes.push([performance.now(), window.onScreen()]); }
+    if (window.pictures === seen && where() === place) return;
+    [seen, place] = [window.pictures, where()];
+    window.changes.push([performance.now(), window.onScreen()]);
   };
   requestAnimationFrame(look);
   const begin = (event) => { window.began = event.timeStamp; window.changes = []; };
   for (const kind of ["pointerdown", "keydown"]) window.addEventListener(kind, begin, true);
 }
 """
-# The time from the last input until its last change was on the screen; then nothing changes for a while.
+# The time from the last input until its last frame was on the screen; none follows for a while.
 LAST = """
 (quiet) => new Promise((resolve, reject) => {
   const end = performance.now() + 10000;
@@ -77,7 +64,7 @@ QUIET = 400  # milliseconds
 
 
 def timed(page, act):
-    """Milliseconds from an input to the last frame that shows something else because of it."""
+    """Milliseconds from an input to the last frame that was drawn because of it."""
     act()
     return page.evaluate(LAST, QUIET)
 

@@ -1,7 +1,7 @@
 // The 3D view: what the paths are drawn with, and words beside it. vtk.js would draw whenever a part of the scene has
 // come; here all that changed, page included, is drawn at once: on a software GL each picture of the page is dear.
 (window.castrayParts ||= []).push((castray) => {
-  const { inject, onBeforeUnmount, onMounted, ref } = window.Vue;
+  const { inject, onBeforeUnmount, onMounted, ref, watch } = window.Vue;
   const { clamp, numbers } = castray;
   const NOTHING = new Uint32Array(0);
 
@@ -52,6 +52,9 @@
       view.render = Object.assign(() => { wanted = true; }, { cancel() {} });
       function look() {
         frame = requestAnimationFrame(look);
+        show();
+      }
+      function show() {
         if (!view.renderer || !view.interactor.getEnableRender()) return; // the scene is still on its way
         if (!named) named = name(canvas.closest("[tabindex]"));
         if (aimed !== props.camera) { aimed = props.camera; view.setCamera(aimed); wanted = true; }
@@ -92,6 +95,7 @@
         });
       }
       onMounted(look);
+      watch(() => props.strokes, show, { flush: "post" }); // the GPU is at it while the rest of the page is laid out
       onBeforeUnmount(() => cancelAnimationFrame(frame));
       const home = () => { aimed = null; };
       return { box, home };
