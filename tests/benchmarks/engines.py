@@ -7,6 +7,7 @@ from functools import partial
 import same_paths
 
 import tracer
+from benchmarks.scenes import ball, box_with
 from benchmarks.section import in_turn, settings, short, table
 from tracer.engine.gl.device import is_hardware, renderer
 from tracer.engine.gl.tracing import Tracer
@@ -19,13 +20,15 @@ SOFTWARE = "the processor itself, on all its cores: no graphics card was there"
 
 def measure(size, say):
     """Paths per second, how long the shader takes to be ready, and how many paths are the same."""
-    rows = [_row(name, settings(size), size.repeats, say) for name in SCENES]
+    scenes = {name: tracer.load(name) for name in SCENES}
+    scenes["the unit box with 20,480 triangles"] = box_with(ball(5))
+    rows = [_row(name, scene, settings(size), size.repeats, say) for name, scene in scenes.items()]
     return f"{table(rows)}\n\nOpenGL is drawn by {HARDWARE if is_hardware() else SOFTWARE} ({renderer()})."
 
 
-def _row(name, asked, repeats, say):
+def _row(name, scene, asked, repeats, say):
     say(name)
-    scene, cores = tracer.load(name), os.cpu_count() or 1
+    cores = os.cpu_count() or 1
     began = time.perf_counter()
     Tracer(scene, asked, RIGHT)
     ready = time.perf_counter() - began
