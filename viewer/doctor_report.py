@@ -101,18 +101,19 @@ def _said(finding, say):
         yield "first", Text(place(finding.first, say))
         if finding.command:
             yield "see", Text(finding.command)
-    for bug, wrong in wrong_code(finding):
+    for bug, wrong in wrong_code(finding, say):
         yield "code", Text(f"{bug}: {wrong}" if finding.alike else wrong)
     if finding.lesson is not None:
         yield "lesson", Text(lesson(finding))
 
 
-def wrong_code(finding):
+def wrong_code(finding, say):
     """What to look for in one's own program: (id, code) of the mistake that is named and of those like it."""
     from lessons.zoo import ZOO
+    from viewer.zoo import wrong_of
 
     named = filter(None, (finding.bug, *finding.alike))
-    return [(bug, ZOO[bug].wrong) for bug in named if bug in ZOO and ZOO[bug].wrong]
+    return [(bug, wrong_of(ZOO[bug], say)) for bug in named if bug in ZOO and ZOO[bug].wrong]
 
 
 def place(first, say):

@@ -43,7 +43,7 @@ def print_bug(bug, console):
     others = sorted(alike(bug.id) - {bug.id})
     said = {
         "seen": symptom_of(bug, say),
-        "wrong": bug.wrong,
+        "wrong": wrong_of(bug, say),
         "law": bug.law,
         "steps": say.listed(*bug.changes) or say("value.none"),
         "shows": bug.command,
@@ -63,6 +63,11 @@ def print_bug(bug, console):
 def title_of(bug, say):
     """What a bug is called in the speaker's language."""
     return say.optional(f"bug.{bug.id}", bug.title)
+
+
+def wrong_of(bug, say):
+    """The code that makes the mistake, in the reader's language."""
+    return say.optional(f"code.{bug.id}", bug.wrong)
 
 
 def symptom_of(bug, say):

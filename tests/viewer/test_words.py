@@ -145,6 +145,7 @@ def test_every_law_and_every_bug_is_told_in_every_language(language):
     assert areas()["laws"][language].keys() == laws
     bugs = {f"{what}.{bug}" for bug in ZOO for what in ("bug", "symptom")}
     assert areas()["bugs"][language].keys() == bugs | {f"family.{name}" for name in FAMILIES}
+    assert areas()["bug_code"][language].keys() == {f"code.{bug.id}" for bug in ZOO.values() if bug.wrong}
 
 
 def english():

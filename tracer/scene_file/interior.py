@@ -28,7 +28,7 @@ def interior(description, place, shape, material):
     sigma_t = scale * sigma_t
     if sigma_t.max() > LARGEST:
         raise TracerError(
-            f"{place}.scale: sigma_t is then {sigma_t.max():g} per metre; the limit is {LARGEST:g}"
+            f"{place}.scale: sigma_t is then {sigma_t.max():g} per unit of length; the limit is {LARGEST:g}"
         )
     _check_holds(shape, material, place)
     return sigma_t if sigma_t.any() else None

@@ -14,9 +14,9 @@ def check(surfaces, camera):
         reach, size = np.abs(corners).max(), np.ptp(corners, axis=0).max()
         name = surface.shape.name
         if reach > LARGEST:
-            raise TracerError(f"{name}: reaches {reach:g} m from the origin; the limit is {LARGEST:g}")
+            raise TracerError(f"{name}: reaches {reach:g} from the origin; the limit is {LARGEST:g}")
         if size < SMALLEST:
-            raise TracerError(f"{name}: is only {size:g} m large; the limit is {SMALLEST:g}")
+            raise TracerError(f"{name}: is only {size:g} large; the limit is {SMALLEST:g}")
     reach = np.abs(camera.origin).max() + camera.aperture_radius
     if max(reach, camera.focus_distance) > LARGEST:
-        raise TracerError(f"sensor.to_world: is more than {LARGEST:g} m from the origin or from its focus")
+        raise TracerError(f"sensor.to_world: is more than {LARGEST:g} from the origin or from its focus")

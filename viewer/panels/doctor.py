@@ -105,7 +105,7 @@ def _cause(index, finding, chart, say):
         "right": equation(finding.what, finding.right) if both else "",
         "exact": {"recorded": finding.recorded, "right": finding.right},
         "why": finding.explanation,
-        "code": [say("doctor.code_of", bug=bug, code=code) for bug, code in wrong_code(finding)],
+        "code": [say("doctor.code_of", bug=bug, code=code) for bug, code in wrong_code(finding, say)],
         "chance": "" if finding.p is None else chance(finding, say),
         "place": place(first, say) if first else "",
         "lesson": None if finding.lesson is None else _lesson(finding.lesson, say),
