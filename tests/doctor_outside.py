@@ -4,6 +4,7 @@ It may be stopped at any time and goes on where it was, as long as the commit is
 """
 
 import argparse
+import json
 import sys
 import time
 from pathlib import Path
@@ -16,6 +17,18 @@ BEFORE = (
     "When they were first tried (commit c75d45b), 7 had a wrong name, in 4 another law fired first. "
     "What was mended since was mended with these at hand, so that new ones would say more."
 )
+AT_FIRST = Path(__file__).parent / "outside" / "at_first.json"  # of the second batch, before any mending
+HEADS = {
+    "first": (
+        "Mistakes that the laws were not written for: replaced steps of castray's loop, changed lines of a "
+        "C++ program that logs and of a Python one that is watched, at commit {commit}."
+    ),
+    "fresh": (
+        "A second batch, written when all of the first had been mended and before the laws were read again: "
+        "more steps, another C++ program (MIS, doubles, glass and mirror, one record of what the caller "
+        "knows), more lines of Python; one of them is a right program. At commit {commit}."
+    ),
+}
 
 
 def measured(mistake):
@@ -30,41 +43,74 @@ def measured(mistake):
         "checked": first and first.checked,
         "p": first and first.p,
         "explanation": first and first.explanation,
-        "right": bool(first and first.rule in mistake.laws),
         "named": [f.bug for f in causes if f.bug],
-        "wrong": [f.bug for f in causes if f.bug and f.bug not in mistake.fair],
         "causes": [f.rule for f in causes],
         "seconds": time.perf_counter() - began,
     }
 
 
-def line(mistake, row):
+def is_right(mistake, row):
+    """Whether what fires first is a law that a reader would call broken; nothing, where nothing is."""
+    return row["rule"] in mistake.laws if mistake.laws else row["rule"] is None
+
+
+def wrong_names(mistake, row):
+    """Ids that are no fair name for it."""
+    return [bug for bug in row["named"] if bug not in mistake.fair]
+
+
+def counted(pairs):
+    """How many mistakes are found, in how many a right law fires first, and what they are called."""
+    found = sum(row["rule"] is not None for mistake, row in pairs if mistake.laws)
+    right = sum(is_right(mistake, row) for mistake, row in pairs if mistake.laws)
+    fair = sum(bool(row["named"]) and not wrong_names(mistake, row) for mistake, row in pairs)
+    wrong = sum(bool(wrong_names(mistake, row)) for mistake, row in pairs)
+    return (
+        f"of {sum(bool(mistake.laws) for mistake, _ in pairs)} mistakes {found} are found; in {right} the "
+        f"law that fires first is one that a reader would call broken. {fair} get a fair name of the "
+        f"catalogue, {wrong} a wrong one"
+    )
+
+
+def line(mistake, row, at_first=None):
     """A row of the table."""
     words = f"| {mistake.id} | {mistake.words} "
+    before = "" if at_first is None else f"| {_said(mistake, at_first)} "
     if row["rule"] is None:
-        return words + "| **nothing found** | | | |"
+        return f"{words}| {_said(mistake, row)} | | {before}| |"
     how = f"p = {row['p']:.1g}" if row["p"] is not None else f"{row['count']} of {row['checked']}"
-    law = row["rule"] if row["right"] else f"**{row['rule']}**"
-    named = ", ".join(f"**{bug}**" if bug in row["wrong"] else bug for bug in row["named"])
-    return f"{words}| {law} | {how} | {named or 'no name'} | {row['explanation']} |"
+    return f"{words}| {_said(mistake, row)} | {how} {before}| {row['explanation']} |"
+
+
+def _said(mistake, row):
+    """The law that fires first and the names, what is wrong in bold."""
+    law = row["rule"] or "nothing found"
+    law = law if is_right(mistake, row) else f"**{law}**"
+    bad = wrong_names(mistake, row)
+    return ", ".join((law, *(f"**{bug}**" if bug in bad else bug for bug in row["named"])))
 
 
 def text(rows):
     """The section."""
-    pairs = [(MISTAKES[key], row) for key, row in rows.items()]
-    found = sum(row["rule"] is not None for _, row in pairs)
-    right = sum(row["right"] for _, row in pairs)
-    wrong = sum(bool(row["wrong"]) for _, row in pairs)
-    fair = sum(bool(row["named"]) and not row["wrong"] for _, row in pairs)
-    head = (
-        f"Mistakes that the laws were not written for: replaced steps of castray's loop, changed lines of a "
-        f"C++ program that logs and of a Python one that is watched, at commit {commit()}. Of {len(pairs)} "
-        f"mistakes {found} are found; in {right} the law that fires first is one that a reader would "
-        f"call broken. {fair} get a fair name of the catalogue, {wrong} a wrong one. {BEFORE}\n\n"
-        "| mistake | | law that fires first | events, or chance | named | what is said |\n"
-        "|---|---|---|---|---|---|\n"
-    )
-    return head + "\n".join(line(mistake, row) for mistake, row in pairs) + "\n"
+    at_first = json.loads(AT_FIRST.read_text(encoding="utf-8"))
+    parts = []
+    for batch, head in HEADS.items():
+        pairs = [(MISTAKES[key], row) for key, row in rows.items() if MISTAKES[key].batch == batch]
+        if not pairs:
+            continue
+        fresh = batch == "fresh"
+        before = BEFORE
+        if fresh:
+            before = f"When they were first tried, {counted([(m, at_first[m.id]) for m, _ in pairs])}."
+        column = " at first |" if fresh else ""
+        parts.append(
+            f"{head.format(commit=commit())} Now {counted(pairs)}. {before}\n\n"
+            f"| mistake | | law that fires first, names | events, or chance |{column} what is said |\n"
+            f"|---|---|---|---|{'---|' if fresh else ''}---|\n"
+            + "\n".join(line(m, row, at_first[m.id] if fresh else None) for m, row in pairs)
+            + "\n"
+        )
+    return "\n".join(parts)
 
 
 def main():

@@ -5,6 +5,7 @@ mostly none. `steps` are replaced steps of castray's own loop, `cpp` and `python
 that log, or are watched.
 """
 
-from outside import cpp, python, steps
+from outside import balls, cpp, more_python, more_steps, python, steps
 
-MISTAKES = {mistake.id: mistake for family in (steps, cpp, python) for mistake in family.MISTAKES}
+_FAMILIES = (steps, cpp, python, more_steps, balls, more_python)
+MISTAKES = {mistake.id: mistake for family in _FAMILIES for mistake in family.MISTAKES}

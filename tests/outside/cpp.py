@@ -18,23 +18,23 @@ SOURCE = ROOT / "tests" / "cpp" / "castray_box.cpp"
 SIDE, SPP = 32, 8
 
 
-def diagnosed(changes):
-    """What the doctor says of the program with some of its text changed, {old: new}."""
-    text = SOURCE.read_text(encoding="utf-8")
+def diagnosed(changes, program=SOURCE, scene="cornell"):
+    """What the doctor says of a program with some of its text changed, {old: new}."""
+    text = program.read_text(encoding="utf-8")
     for old, new in changes.items():
         if text.count(old) != 1:
-            raise ValueError(f"{text.count(old)} times in {SOURCE.name}: {old}")
+            raise ValueError(f"{text.count(old)} times in {program.name}: {old}")
         text = text.replace(old, new)
     with tempfile.TemporaryDirectory() as folder:
-        source, program, log = (Path(folder) / name for name in ("box.cpp", "box", "box.jsonl"))
+        source, built, log = (Path(folder) / name for name in ("own.cpp", "own", "own.jsonl"))
         source.write_text(text, encoding="utf-8")
         shape = (f"-DPICTURE={SIDE}", f"-DSAMPLES={SPP}")
         compiler = shutil.which("g++") or shutil.which("clang++") or "g++"
         words = [compiler, "-std=c++11", "-O1", "-pthread", *shape, "-I", header_file().parent, source]
-        subprocess.run([*words, "-o", program], check=True)
+        subprocess.run([*words, "-o", built], check=True)
         env = os.environ | {"CASTRAY_LOG": str(log), "CASTRAY_PIXELS": "all"}
-        subprocess.run([program], env=env, check=True, stdout=subprocess.DEVNULL)
-        return examine(read_log(log, tracer.load("cornell")).trace)
+        subprocess.run([built], env=env, check=True, stdout=subprocess.DEVNULL)
+        return examine(read_log(log, tracer.load(scene)).trace)
 
 
 def _of(id, words, laws, changes, fair=()):
