@@ -12,8 +12,11 @@ from outside import MISTAKES
 from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
 
-QUICK = ("f-twice", "roulette-early")
-SLOW = ("cosine-of-the-lamp", "towards-the-ray", "barrel", "c++ first-material", "c++ product-of-numbers")
+QUICK = ("f-twice", "roulette-early", "depths-share")
+SLOW = (
+    "cosine-of-the-lamp", "towards-the-ray", "barrel", "lamp-from-behind", "c++ first-material",
+    "c++ product-of-numbers", "balls still-matt", "balls frame-made-once",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("id", [*QUICK, *(pytest.param(id, marks=pytest.mark.slow) for id in SLOW)])
@@ -22,6 +25,11 @@ def test_a_mistake_of_no_catalogue_breaks_its_law_and_gets_no_wrong_name(id):
     causes = mistake.diagnosed().causes
     assert causes[0].rule in mistake.laws and causes[0].count > 0
     assert {f.bug for f in causes if f.bug} <= set(mistake.fair)
+
+
+@pytest.mark.slow
+def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_finding():
+    assert MISTAKES["balls right"].diagnosed().findings == ()
 
 
 @pytest.mark.parametrize(

@@ -25,11 +25,19 @@ _TOGETHER = (
     ("light-pick", "light-pdf"),
     ("light-radiance", "light-pdf"),
     ("unit-light", "light-visible"),
+    ("light-normal", "light-radiance"),
 )  # fmt: skip
+# Where a path goes on, and what it can only meet wrongly after it went on wrongly.
+_WAY = ("unit-direction", "bounce-side", "bounce-mirror", "chain")
+_MET = ("on-surface", "unit-normal", "normal", "shading-normal", "chain", "own-surface", "first-surface",
+    "distance", "wo", "side", "emission", "pdf-of-light", "light-due", "bounce-side", "bounce-mirror",
+    "bounce-mirror-f", "bounce-mirror-pdf")  # fmt: skip
+_UNCARRIED = ("bounce-side", "bounce-f", "bounce-pdf", "light-due")  # why a bounce may carry nothing
 _OF_MANY = tuple(rule.id for rule in statistics.RULES)
 _NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
 _BOUNCES = ("unit-normal", "normal", "shading-normal", "unit-direction", "wo", "absorbed", "bounce-")
 _ALWAYS_LATER = ("domain", "finite")  # what any mistake may lead to
+_AFTER = 0.999  # share of a law's events that have to come after those of another
 _VERTICES = 1 << 18  # that are judged at once, about 300 MB
 
 
@@ -135,7 +143,25 @@ def examine(trace, only=None):
     many = statistics.judged(whole, only)
     findings = [judged.finding for judged in single if judged.finding is not None]
     findings += [_finding(whole, verdict) for verdict in many if verdict.state == FIRED]
-    return Diagnosis(ranked(findings), (*(judged.verdict for judged in single), *many))
+    led = _led(trace, single)
+    return Diagnosis(ranked(findings, led), (*(judged.verdict for judged in single), *many))
+
+
+def _led(trace, single):
+    """Id of a law -> id of the law of the way that was broken before it on each path where it is broken."""
+    found = {}
+    for lead in single:
+        if lead.rule.id not in _WAY or lead.finding is None:
+            continue
+        path, step = lead.where(trace)
+        first = np.full(trace.size, np.inf)
+        np.minimum.at(first, path, step)
+        for judged in single:
+            if judged.rule.id in _MET and judged.rule.id != lead.rule.id and judged.finding is not None:
+                path, step = judged.where(trace)
+                if (step >= first[path]).mean() >= _AFTER:
+                    found.setdefault(judged.rule.id, lead.rule.id)
+    return {rule: lead for rule, lead in found.items() if lead not in found}
 
 
 def _ranges(trace):
@@ -156,6 +182,12 @@ class _Judged:
     def __init__(self, rule):
         self.rule, self.finding, self._most = rule, None, 0
         self.verdict = Verdict(rule, NOT_TESTABLE)
+
+    def where(self, trace):
+        """Path and step of each event that breaks the rule, both (K,)."""
+        table = trace.tables[self.verdict.outcome.kind]
+        rows = self.verdict.outcome.rows[self.verdict.outcome.wrong]
+        return table.path[rows], table.step[rows]
 
     def add(self, verdict, evidence, first):
         """One part's verdict; first: number of the part's first event in the trace."""
@@ -188,15 +220,28 @@ def _wrong_of_both(so_far, outcome, first):
     return Outcome(outcome.kind, rows, np.ones(rows.size, bool), np.zeros(rows.size, bool), what=outcome.what)
 
 
-def ranked(findings):
-    """Causes first, in the order of the rules, and after each what follows from it."""
+def ranked(findings, led=None):
+    """Causes first, in the order of the rules, those last of which there are but few events; then what
+    follows from them. led: id of a law -> id of the one that is broken before it."""
+    led = led or {}
     fired = [f.rule for f in findings]
     often = [f.rule for f in findings if f.rule in _OF_MANY or f.count > FEW * np.sqrt(f.checked)]
+    rare = {f.rule for f in findings} - set(often)
     ordered = []
     for f in findings:
-        cause = _cause(f.rule, often if f.rule in _OF_MANY else fired)
+        cause = led.get(f.rule) or _cause(f.rule, often if f.rule in _OF_MANY else fired)
+        if f.rule == "absorbed" and f.bug is None:
+            cause = next((other for other in fired if other in _UNCARRIED), None)
         ordered.append(f if cause is None else _following(f, cause))
-    return tuple(sorted(ordered, key=lambda f: f.follows is not None))
+    return tuple(sorted(ordered, key=lambda f: (f.follows is not None, f.follows is None and f.rule in rare)))
+
+
+def followed(findings):
+    """Id of a law -> id of the cause that it was found to follow from on its paths, of those still there."""
+    there = {f.rule for f in findings}
+    return {
+        f.rule: f.follows for f in findings if f.rule in _MET and f.follows in _WAY and f.follows in there
+    }
 
 
 def _cause(rule, fired):

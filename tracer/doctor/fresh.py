@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.doctor import statistics
-from tracer.doctor.diagnosis import ranked
+from tracer.doctor.diagnosis import followed, ranked
 from tracer.doctor.evidence import Evidence
 from tracer.doctor.rule import CLEAN, FIRED
 
@@ -35,7 +35,7 @@ def confirmed(diagnosis, trace):
     kept = [f for f in diagnosis.findings if f.p is None or f.rule in again]
     kept = [f if f.p is None else replace(f, confirmed=True) for f in kept]
     if len(kept) < len(diagnosis.findings):
-        kept = ranked([replace(f, follows=None) for f in kept])
+        kept = ranked([replace(f, follows=None) for f in kept], followed(kept))
     rules = (_cleared(v) if v.rule.id in asked - again else v for v in diagnosis.rules)
     return replace(diagnosis, findings=tuple(kept), rules=tuple(rules))
 

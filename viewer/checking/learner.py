@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import tracer
-from tracer.doctor.diagnosis import Diagnosis, ranked
+from tracer.doctor.diagnosis import Diagnosis, followed, ranked
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
 from viewer.options import CheckOptions, settings_and_steps
@@ -45,4 +45,5 @@ def together(first, later):
     rules = {v.rule.id: v for v in (*first.rules, *later.rules)}
     order = list(rules)
     found = sorted((*first.findings, *later.findings), key=lambda f: order.index(f.rule))
-    return Diagnosis(ranked([replace(f, command=None) for f in found]), tuple(rules.values()))
+    alone = [replace(f, command=None) for f in found]
+    return Diagnosis(ranked(alone, followed(found)), tuple(rules.values()))

@@ -75,7 +75,8 @@ def last_density(evidence):
     if evidence.count("bounce"):
         pdf = np.where(evidence("bounce.delta"), np.inf, evidence("bounce.pdf"))
         right = np.where(bounce < 0, np.inf, pdf.take(bounce))
-    bad = ~((np.abs(recorded - right) <= 4.0 * evidence.eps * right) | (recorded == right))
+    near = np.abs(recorded - right) <= 4.0 * evidence.eps * np.where(np.isinf(right), 0.0, right)
+    bad = ~(near | (recorded == right))
     return Outcome("hit", np.arange(bad.size), bad, np.zeros_like(bad), recorded, right, "pdf_bsdf")
 
 

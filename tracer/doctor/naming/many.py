@@ -25,6 +25,8 @@ def once(case):
     facts = case.outcome.facts
     if facts["distinct"] <= 2:
         return Clue("P02", "the same numbers at every vertex: the generator always starts alike")
+    if facts["within"] > 0.5:  # generators that are shared give the same numbers to different paths
+        return Clue(None, f"{case.outcome.note}; the same ones come again within one path")
     return Clue("P03", case.outcome.note, ())
 
 

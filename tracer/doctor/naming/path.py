@@ -210,6 +210,9 @@ def shading(case):
     return None
 
 
+_NEVER_UNIT = 1e-3  # farther from 1 no rounding brings a length
+
+
 def unit_normal(case):
     """Normals whose length is not 1."""
     size, evidence = case.recorded, case.evidence
@@ -225,6 +228,9 @@ def unit_normal(case):
         return Clue(
             "N04", "only interpolated normals are too short: what lies between two unit vectors is shorter"
         )
+    off = np.abs(size - 1.0)
+    if not np.median(off) > _NEVER_UNIT:
+        return Clue(None, f"lengths off by up to {off.max():.2g}")
     return Clue("B18", f"lengths from {size.min():.3g} to {size.max():.3g}: the normal was never made unit")
 
 

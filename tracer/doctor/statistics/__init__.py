@@ -128,7 +128,7 @@ def _verdict(rule, cells, missing, limit, tests):
     family = min(1.0, shown.p * tests)
     outcome = Outcome(
         shown.kind, shown.rows, wrong, np.zeros_like(wrong), p=family,
-        note="; ".join(cell.words for cell in sorted(bad, key=lambda cell: cell.p)[:3]),
+        note="; ".join([*dict.fromkeys(cell.words for cell in sorted(bad, key=lambda cell: cell.p))][:3]),
         facts=shown.facts | {"cells": bad},
     )  # fmt: skip
     return replace(

@@ -71,6 +71,8 @@ def once(evidence):
         twice = (u[:, order[1:]] == u[:, order[:-1]]).all(axis=0)
         by_chance = 0.5 * rows.size**2 * max(_BITS, evidence.eps) ** len(u)
         again = rows[order[1:][twice]]
+        path = evidence.trace.tables[_kind(use)].path
+        within = float((path[again] == path[rows[order[:-1][twice]]]).mean()) if again.size else 0.0
         p = min(1.0, by_chance) if again.size else 1.0
         distinct = rows.size - again.size
         words = f"the numbers for {use}: {distinct} different ones at {rows.size} vertices"
@@ -79,7 +81,7 @@ def once(evidence):
             words,
             _kind(use),
             again if again.size else rows,
-            {"use": use, "distinct": distinct, "of": rows.size},
+            {"use": use, "distinct": distinct, "of": rows.size, "within": within},
         )
 
 

@@ -43,11 +43,13 @@ def onward(scene, o, d):
 def primitives_at(scene, o, d, p):
     """Primitive (N,) that points p (3, N), come to along rays, lie on; -1 where there is none nearby.
 
-    First whatever lies nearest to p along its own ray; where nothing does, along other ways to p.
+    First whatever lies nearest to p along its own ray, looked for from both sides, since where two surfaces
+    nearly touch each hides the other; where nothing does, along other ways to p.
     """
     reach = NEAR * scale(scene)
     found, off = np.full(p.shape[1], -1), np.full(p.shape[1], reach)
-    _nearer(scene, p, d, reach, found, off, np.arange(p.shape[1]))
+    for way in (d, -d):
+        _nearer(scene, p, way, reach, found, off, np.arange(p.shape[1]))
     for way in np.concatenate((np.eye(3), -np.eye(3))):
         rest = np.flatnonzero(found < 0)
         if not rest.size:

@@ -49,8 +49,8 @@ def read_log(path, scene=None, options=None):
     notes += conventions.complaints(read.columns, read.header, exact)
     conventions.convert(read.columns, read.header, exact)
     make = _of_calls if None in read.columns else _of_events
-    trace, more = make(read, scene.at(settings), exact, settings)
-    trace = replace(trace, free=free)
+    trace, more = make(read, scene.at(settings), exact, settings, read_off)
+    trace = replace(trace, free=free | trace.free)
     if not trace.size:
         raise TracerError(f"{path}: no path is whole; {'; '.join(more)}")
     return Log(read, trace, tuple(notes + more), read_off)
@@ -118,10 +118,14 @@ def _free(read, read_off):
     return frozenset({"roulette"} if chosen and not declared else ())
 
 
-def _of_calls(read, scene, exact, settings):
+def _of_calls(read, scene, exact, settings, read_off):
     chain = calls.chained(read.columns.pop(None))
     if not chain.path.size:
         return Trace(scene, settings, {"x": np.empty(0)}, {}, read.header.eps), chain.notes
+    free = frozenset()
+    if "roulette" in read_off and not _played_throughout(chain):
+        del read_off["roulette"]
+        settings, free = replace(settings, roulette="auto"), frozenset({"roulette"})
     where = places.placed(chain, exact)
     if read.header.turned["n"] == "facing":
         real, _ = geometry.surfaces(exact, where.p, where.d, where.primitive)
@@ -143,9 +147,15 @@ def _of_calls(read, scene, exact, settings):
     rebuilt = frozenset(telling.rebuilt)
     trace = Trace(
         scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, frozenset(assumed),
-        culled=True, left_out=chain.left_out,
+        free=free, culled=True, left_out=chain.left_out,
     )  # fmt: skip
     return trace, [*chain.notes, *notes]
+
+
+def _played_throughout(chain):
+    """Whether roulette is logged by all calls that went on: where it is not, it was not played."""
+    given = chain.given("roulette.probability")
+    return not given.any() or bool(given[~chain.last].all())
 
 
 def _value(columns, name, rows):
@@ -193,7 +203,7 @@ def _paths(tables, place, size):
     return paths
 
 
-def _of_events(read, scene, exact, settings):
+def _of_events(read, scene, exact, settings, read_off):
     """The Trace of lines that are events already."""
     keys = [_keys(found) for found in read.columns.values()]
     kinds = list(read.columns)
@@ -222,13 +232,18 @@ def _of_events(read, scene, exact, settings):
         tables[kind] = Table(path[order], step[order], depth[order], columns)
     _with_ends(tables, first.size)
     assumed = frozenset(_summed(tables))
+    free = frozenset()
+    if "roulette" in read_off and tables["roulette"].path.size < tables["bounce"].path.size:
+        del read_off["roulette"]  # it is played at some bounces only
+        settings, free = replace(settings, roulette="auto"), frozenset({"roulette"})
     paths = _paths(tables, place, first.size)
     tables = {
         name: replace(table, columns=compact(table.columns, scene.dtype)) for name, table in tables.items()
     }
     trace = Trace(
-        scene, settings, compact(paths, scene.dtype), tables, read.header.eps, assumed=assumed, culled=True
-    )
+        scene, settings, compact(paths, scene.dtype), tables, read.header.eps,
+        assumed=assumed, free=free, culled=True,
+    )  # fmt: skip
     return trace, _of_tables(exact, tables)
 
 
