@@ -7,10 +7,11 @@ event's own numbers the recorded one is off, where it is a product of them (`fac
 
 import numpy as np
 
-from tracer.doctor.naming import bounce, factors, light, many, path
+from tracer.doctor.naming import bounce, emission, ends, factors, light, many, path, surface
 from tracer.doctor.naming.case import Case, Clue
 
-_NAMES = light.NAMES | bounce.NAMES | path.NAMES | many.NAMES
+_FAMILIES = (ends, path, surface, emission, light, bounce, many)
+_NAMES = {law: guess for family in _FAMILIES for law, guess in family.NAMES.items()}
 
 
 def named(evidence, rule, outcome):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracer.doctor.naming.case import SHARE, Clue, first
-from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials, to_the_lamp
+from tracer.doctor.naming.reflection import exchanged, given_to, local, to_the_lamp, wrong_f
 from tracer.frame import dot
 
 _ZERO = "the density of this direction is 0, and the path goes on: the throughput is 0/0"
@@ -65,34 +65,8 @@ def density(case):
 
 def reflected(case):
     """f of a bounce."""
-    given, wi, right = given_to(case), case["wi"], case.right
-    cos = np.abs(dot(given["n"], wi))
-    return first(
-        case,
-        [
-            ("B15", _ZERO, _divided_by_zero(case)),
-            ("G09", "light from below the true surface is let through", lambda: leaks(case, given, wi)),
-            ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
-            (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
-            ("D10", "recorded = right x cos: the cosine is in f already", right * cos),
-            (
-                "B14",
-                "recorded = f(wi, wo): the two directions are exchanged",
-                lambda: exchanged(case.evidence, given, wi, "eval"),
-            ),
-            (
-                "B14",
-                "recorded = f(wi, wi)",
-                lambda: case.evidence.asked(**given | {"wo": wi}, wi=wi, what="eval"),
-            ),
-            (
-                "W04",
-                "recorded is f asked with world directions",
-                lambda: local(case.evidence, given, wi, "eval"),
-            ),
-        ]
-        + materials(case, given, wi),
-    )
+    zero = ("B15", _ZERO, _divided_by_zero(case))
+    return first(case, [zero, *wrong_f(case, given_to(case), case["wi"])])
 
 
 def throughput(case):

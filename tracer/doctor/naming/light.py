@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.doctor.laws.emission import mis
 from tracer.doctor.naming.case import SHARE, Clue, first
-from tracer.doctor.naming.reflection import exchanged, given_to, leaks, local, materials, mixed, nothing_rough
+from tracer.doctor.naming.reflection import exchanged, given_to, local, wrong_f
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
@@ -17,52 +17,23 @@ def _cos_light(case):
 
 def term(case):
     """What a light sample brings."""
-    ratio = case.right
-    r, cos, pdf, w = case["distance"], case["cos"], case["pdf"], case["w"]
-    cos_light = _cos_light(case)
-    per_area = pdf * cos_light / (r * r)
-    q = _survival(case)
+    right, q = case.right, _survival(case)
     pick = case["pick"] if case.has("pick") else 1.0
     return first(
         case,
         [
-            (
-                "D08",
-                "recorded < 0, and only behind the lamp: its cosine is not clamped",
-                lambda: bool(np.mean((case.recorded.min(axis=0) < 0.0) & (cos_light < 0.0)) >= SHARE),
-            ),
-            ("D07", "recorded = -right: the lamp's cosine has the wrong sign", -ratio),
-            ("D10", "recorded = right / cos: the cosine at the surface is missing", ratio / cos),
-            ("D10", "recorded = right x cos: there is one cosine too many", ratio * cos),
-            ("D11", "recorded = right x r: divided by the distance, not by its square", ratio * r),
-            ("D11", "recorded = right x r^2: not divided by the square of the distance", ratio * r * r),
-            (
-                "D13",
-                "recorded = right x pdf / pdf_area: the density per area is used as one per solid angle",
-                ratio * pdf / per_area,
-            ),
-            (
-                "D13",
-                "recorded = right x cos_light / r^2: the geometry term is there twice",
-                ratio * cos_light / (r * r),
-            ),
-            ("D21", "recorded = right / q: direct light is divided by the roulette's probability", ratio / q),
-            ("D21", "recorded = right x q: direct light pays for the roulette", ratio * q),
+            *_wrong_geometry(case),
+            ("D21", "recorded = right / q: direct light is divided by the roulette's probability", right / q),
+            ("D21", "recorded = right x q: direct light pays for the roulette", right * q),
             (
                 "D14",
                 "recorded = right x P(lamp): the probability of choosing the lamp is left out",
-                ratio * pick,
+                right * pick,
             ),
-            (None, "recorded = right / cos_light: a cosine of the lamp too few", ratio / cos_light),
-            (None, "recorded = right x cos_light: a cosine of the lamp too many", ratio * cos_light),
-            ("M01", "recorded = right / w: the weight is left out", ratio / w),
-            (None, "recorded = right x pi", ratio * np.pi),
-            (None, "recorded = right / pi", ratio / np.pi),
-            (None, "recorded = right x 2", ratio * 2.0),
-            (None, "recorded = right / 2", ratio / 2.0),
-            (None, "recorded = right x pdf: the density is left out", ratio * pdf),
-            (None, "recorded without the throughput", ratio / case["beta"]),
-            (None, "recorded without f", ratio / case["f"]),
+            ("M01", "recorded = right / w: the weight is left out", right / case["w"]),
+            (None, "recorded = right x pdf: the density is left out", right * case["pdf"]),
+            (None, "recorded without the throughput", right / case["beta"]),
+            (None, "recorded without f", right / case["f"]),
             (
                 None,
                 "what is hidden counts as if it were seen",
@@ -70,6 +41,28 @@ def term(case):
             ),
         ],
     )
+
+
+def _wrong_geometry(case):
+    """Guesses about cosines, distance and measure in what a light sample brings."""
+    right, r, cos, pdf = case.right, case["distance"], case["cos"], case["pdf"]
+    cos_light = _cos_light(case)
+    behind = lambda: bool(np.mean((case.recorded.min(axis=0) < 0.0) & (cos_light < 0.0)) >= SHARE)  # noqa: E731
+    per_angle = "recorded = right x pdf / pdf_area: the density per area is used as one per solid angle"
+    twice = "recorded = right x cos_light / r^2: the geometry term is there twice"
+    to_area = cos_light / (r * r)
+    return [
+        ("D08", "recorded < 0, and only behind the lamp: its cosine is not clamped", behind),
+        ("D07", "recorded = -right: the lamp's cosine has the wrong sign", -right),
+        ("D10", "recorded = right / cos: the cosine at the surface is missing", right / cos),
+        ("D10", "recorded = right x cos: there is one cosine too many", right * cos),
+        ("D11", "recorded = right x r: divided by the distance, not by its square", right * r),
+        ("D11", "recorded = right x r^2: not divided by the square of the distance", right * r * r),
+        ("D13", per_angle, right * pdf / (pdf * to_area)),
+        ("D13", twice, right * to_area),
+        (None, "recorded = right / cos_light: a cosine of the lamp too few", right / cos_light),
+        (None, "recorded = right x cos_light: a cosine of the lamp too many", right * cos_light),
+    ]
 
 
 def _survival(case):
@@ -166,67 +159,35 @@ def radiance(case):
 
 def reflected(case):
     """f at a light sample."""
-    evidence = case.evidence
     given = given_to(case)
-    right, wi, wo, n = case.right, case["wi"], given["wo"], given["n"]
-    cos = np.abs(dot(n, wi))
-
-    def lamp():
-        primitive = case["primitive"]
-        if (primitive < 0).any():
-            return False
-        frame = evidence.scene.frame(n, given["p"], given["primitive"])
-        return evidence.scene.bsdf.eval(
-            evidence.scene.bsdf_of.take(primitive), frame.to_local(wo), frame.to_local(wi)
-        )
-
-    def grey():
-        lit = case.recorded.max(axis=0) > 0.0
-        here = case.recorded[:, lit]
-        several = np.unique(evidence.scene.bsdf_of.take(given["primitive"][lit])).size > 1
-        return bool(several and here.size and np.ptp(here, axis=1).max() <= 1e-3 * here.max())
-
+    of_lamp = "recorded is the f of the lamp's material, not of the surface's"
+    same = "f is the same at surfaces of different materials: that of the lamp's"
     return first(
         case,
         [
-            (
-                "G09",
-                "light from below the true surface is let through by the shading normal",
-                lambda: leaks(case, given, wi),
-            ),
-            (
-                "S08",
-                "recorded NaN on rough surfaces: a roughness of 0 is divided by",
-                lambda: nothing_rough(case, given),
-            ),
-            ("D06", "recorded is the f of the lamp's material, not of the surface's", lamp),
-            ("D06", "f is the same at surfaces of different materials: that of the lamp's", grey),
-            ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
-            (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
-            ("D10", "recorded = right x cos: the cosine is in f already", right * cos),
-            (
-                "B14",
-                "recorded = f(wi, wo): the two directions are exchanged",
-                lambda: exchanged(evidence, given, wi, "eval"),
-            ),
-            (
-                "B14",
-                "recorded = f(wi, wi): wi is given for both directions",
-                lambda: evidence.asked(**given | {"wo": wi}, wi=wi, what="eval"),
-            ),
-            (
-                "W04",
-                "recorded is f asked with world directions as if they were local",
-                lambda: local(evidence, given, wi, "eval"),
-            ),
-            (
-                "W04",
-                "recorded is f asked with a local wo and wi in world space",
-                lambda: mixed(evidence, given, wi, "eval"),
-            ),
-        ]
-        + materials(case, given, wi),
+            ("D06", of_lamp, lambda: _of_the_lamp(case, given)),
+            ("D06", same, lambda: _grey_everywhere(case, given)),
+            *wrong_f(case, given, case["wi"]),
+        ],
     )
+
+
+def _of_the_lamp(case, given):
+    """What the lamp's BSDF says, (3, K); False where a light has none."""
+    primitive, scene = case["primitive"], case.evidence.scene
+    if (primitive < 0).any():
+        return False
+    frame = scene.frame(given["n"], given["p"], given["primitive"])
+    local_wo, local_wi = frame.to_local(given["wo"]), frame.to_local(case["wi"])
+    return scene.bsdf.eval(scene.bsdf_of.take(primitive), local_wo, local_wi)
+
+
+def _grey_everywhere(case, given):
+    """Whether f is one number at surfaces of several materials."""
+    lit = case.recorded.max(axis=0) > 0.0
+    here = case.recorded[:, lit]
+    several = np.unique(case.evidence.scene.bsdf_of.take(given["primitive"][lit])).size > 1
+    return bool(several and here.size and np.ptp(here, axis=1).max() <= 1e-3 * here.max())
 
 
 def density_of_bouncing(case):

@@ -54,21 +54,38 @@ def leaks(case, given, wi):
     return bool(np.mean(through & (case.right == 0.0).all(axis=0)) >= SHARE)
 
 
-def materials(case, given, wi):
-    """Guesses about f of rough and layered surfaces."""
+def wrong_f(case, given, wi):
+    """Guesses about f for light from wi (3, K), at a light sample or a bounce."""
+    evidence, right = case.evidence, case.right
+    cos = np.abs(dot(given["n"], wi))
+    below = "light from below the true surface is let through by the shading normal"
+    rough = "recorded NaN on rough surfaces: a roughness of 0 is divided by"
+    twice_wi = "recorded = f(wi, wi): wi is given for both directions"
+    for_local = "recorded is f asked with world directions as if they were local"
+    half_local = "recorded is f asked with a local wo and wi in world space"
+    added = "recorded > right everywhere: two lobes are added without sharing the light between them"
+    return [
+        ("G09", below, lambda: leaks(case, given, wi)),
+        ("S08", rough, lambda: nothing_rough(case, given)),
+        ("B03", "recorded = right x pi: 1/pi is missing", right * np.pi),
+        (None, "recorded = right / pi: 1/pi is there twice", right / np.pi),
+        ("D10", "recorded = right x cos: the cosine is in f already", right * cos),
+        (
+            "B14",
+            "recorded = f(wi, wo): the two directions are exchanged",
+            lambda: exchanged(evidence, given, wi, "eval"),
+        ),
+        ("B14", twice_wi, lambda: evidence.asked(**given | {"wo": wi}, wi=wi, what="eval")),
+        ("W04", for_local, lambda: local(evidence, given, wi, "eval")),
+        ("W04", half_local, lambda: mixed(evidence, given, wi, "eval")),
+        ("S09", added, lambda: _layered(case, given) and _more(case)),
+    ]
+
+
+def _more(case):
+    """Whether more is recorded than is right at all events."""
     ratio = case.recorded / np.where(case.right > 0.0, case.right, np.nan)
-    more = bool(np.nanmin(ratio) > 1.0) if np.isfinite(ratio).any() else False
-    return (
-        [
-            (
-                "S09",
-                "recorded > right everywhere: two lobes are added without sharing the light between them",
-                more,
-            )
-        ]
-        if _layered(case, given)
-        else []
-    )
+    return bool(np.nanmin(ratio) > 1.0) if np.isfinite(ratio).any() else False
 
 
 def _layered(case, given):

@@ -1,0 +1,81 @@
+"""What breaks the laws of light that a path runs into."""
+
+import numpy as np
+
+from tracer.doctor.laws.emission import mis
+from tracer.doctor.naming.case import SHARE, Clue, first
+from tracer.frame import dot
+
+
+def weight(case):
+    """The weight of a lamp that is met."""
+    settings, recorded = case.evidence.settings, case.recorded
+    pdf_bsdf = case["pdf_bsdf"] if case.has("pdf_bsdf") else np.full(recorded.shape, np.nan)
+    pdf_light = case["pdf_light"]
+    twice = bool(((recorded == 1.0) & (case.right < 1.0)).mean() >= SHARE)
+    never = bool(((recorded == 0.0) & (case.right == 1.0)).mean() >= SHARE)
+    depths = ", ".join(map(str, np.unique(case.depth)))
+    outcome = case.outcome
+    # Of lamps that are met alike, some only: then it is not the rule that is wrong.
+    alike = outcome.right < 1.0 if twice else outcome.right == 1.0
+    everywhere = bool(outcome.wrong[alike].mean() >= SHARE)
+    return first(
+        case,
+        [
+            (
+                ("E01", "E04"),
+                "recorded 1 at lamps that light samples counted at the vertex before: counted twice",
+                twice and everywhere,
+            ),
+            (
+                None,
+                f"recorded 1 at depth {depths}, at lamps that light samples counted at the vertex before",
+                twice,
+            ),
+            (
+                "E02",
+                "recorded 0 at lamps that nothing else can count: their own light is lost",
+                never and everywhere,
+            ),
+            (
+                None,
+                f"recorded 0 at some lamps that nothing else can count, at depth {depths}",
+                never,
+            ),
+            (
+                "M02",
+                "recorded = MIS(1, pdf_light) after the camera or a mirror, which no light sample does",
+                lambda: _of_dirac(case, pdf_bsdf, mis(settings, np.ones_like(pdf_light), pdf_light)),
+            ),
+            ("M01", "recorded is the weight of the other technique", mis(settings, pdf_light, pdf_bsdf)),
+        ],
+    ) or Clue("M01", "the weights of this light found both ways do not sum to 1")
+
+
+def _of_dirac(case, pdf_bsdf, predicted):
+    return bool(np.isinf(pdf_bsdf).mean() >= SHARE) and predicted
+
+
+def emission(case):
+    """Le of a vertex."""
+    nothing = (case.recorded == 0.0).all(axis=0) & (case.right > 0.0).any(axis=0)
+    n = case.evidence.brute.normals(case["p"], case["primitive"])
+    back = (dot(n, case["wo"]) < 0.0) & (case.recorded > 0.0).any(axis=0)
+    return first(
+        case,
+        [
+            (
+                "E03",
+                "recorded 0 on a lamp's bright side: its emission is read from where it was never put",
+                bool(nothing.mean() >= SHARE),
+            ),
+            ("E06", "the lamp shines from its back", bool(back.mean() >= SHARE)),
+        ],
+    )
+
+
+NAMES = {
+    "emission-weight": weight,
+    "environment-weight": weight,
+    "emission": emission,
+}
