@@ -256,13 +256,15 @@ def _only(leaves, kind):
 
 
 def _cosine(leaves, n):
-    """The one dot product with the vertex's normal, None where there is none."""
-    found = {
-        id(leaf): leaf
-        for leaf in leaves
-        if leaf.kind == "dot" and any(_same(leaf.of[side], n) for side in ("a", "b"))
-    }
-    return next(iter(found.values())).value if len(found) == 1 else None
+    """The one dot product with the vertex's normal, None where there is none. One with the opposite of it,
+    such as the normal of a lamp above, counts with the other sign: a minus beside it was used, too."""
+    found = {}
+    for leaf in leaves:
+        along = [dot(leaf.of[side], n).value for side in ("a", "b")] if leaf.kind == "dot" else []
+        for cos in along:
+            if abs(abs(cos) - 1.0) < _SURE:
+                found[id(leaf)] = leaf.value * np.sign(cos)
+    return next(iter(found.values())) if len(found) == 1 else None
 
 
 def _length(asked, wi):
@@ -272,11 +274,6 @@ def _length(asked, wi):
         if abs(size - 1.0) > _SURE and d @ wi > (1.0 - _SURE) * size:
             return size
     return 1.0
-
-
-def _same(a, b):
-    """Whether two vectors are one, or opposite."""
-    return abs(abs(dot(a, b).value) - 1.0) < _SURE
 
 
 def _rolled(call):

@@ -69,6 +69,18 @@ def reflected(case):
     return first(case, [zero, *wrong_f(case, given_to(case), case["wi"])])
 
 
+def cosine(case):
+    """The cosine at a bounce, or at a light sample."""
+    n, wo = case.vertex("n"), case.vertex("wo")
+    return first(
+        case,
+        [
+            (None, "recorded = n . wo: the cosine of the way that the path came", np.abs(dot(n, wo))),
+            (None, "recorded 1: there is no cosine", np.ones_like(case.right)),
+        ],
+    )
+
+
 def throughput(case):
     """beta after a bounce."""
     before, f, pdf = case["beta_before"] if case.has("beta_before") else np.nan, case["f"], case["pdf"]
@@ -215,6 +227,8 @@ def side(case):
 NAMES = {
     "bounce-pdf": density,
     "bounce-f": reflected,
+    "bounce-cos": cosine,
+    "light-cos": cosine,
     "throughput": throughput,
     "throughput-on-arrival": on_arrival,
     "roulette-weight": survivors,

@@ -74,7 +74,16 @@ def emission(case):
     )
 
 
+def last_density(case):
+    """pdf_bsdf of a vertex."""
+    early = np.isfinite(case.recorded) & np.isinf(case.right)
+    if early.mean() >= SHARE:
+        return Clue(None, "recorded a number after the camera, a mirror or glass, where it is infinite")
+    return None
+
+
 NAMES = {
+    "pdf-of-last-bounce": last_density,
     "emission-weight": weight,
     "environment-weight": weight,
     "emission": emission,

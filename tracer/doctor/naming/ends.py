@@ -54,9 +54,21 @@ def absorbed(case):
         return Clue(
             "B04", "every bounce goes away from the origin of space: the position stands for the normal"
         )
+    depth, going = case.depth, case.evidence.trace.tables["bounce"].depth
+    if np.unique(depth).size == 1 and depth[0] > going.max():
+        words = f"all paths that come as far end at depth {depth[0]}: a cut, which nothing makes up for"
+        return Clue("R05", words)
     ends = case.outcome.wrong.sum()
     if 0.4 < ends / (ends + n.shape[1]) < 0.6:
         return Clue("B08", "half of the directions lead into the surface: the whole sphere is sampled")
+    return None
+
+
+def light_due(case):
+    """Vertices without a light sample."""
+    lamp = case.evidence.scene.light_of.take(case["primitive"]) >= 0
+    if lamp.all():
+        return Clue(None, "only where lamps are met, which reflect light as other surfaces do")
     return None
 
 
@@ -96,5 +108,6 @@ def ledger(case):
 NAMES = {
     "camera-ray": camera_ray,
     "absorbed": absorbed,
+    "light-due": light_due,
     "ledger": ledger,
 }

@@ -36,12 +36,37 @@ def words(case):
     if case.recorded is None or case.right is None or case.recorded.dtype.kind != "f":
         return ""
     ratio, there = _ratio(case)
+    # What is hardly off agrees with any product that is near 1
+    off = np.abs(ratio - 1.0) > 4.0 * CLOSE
+    there &= off if off.ndim == 1 else off.any(axis=0)
     if np.count_nonzero(there) < _FEWEST:
         return ""
     ratio = ratio[..., there]
     if (value := _constant(ratio)) is not None:
-        return "" if abs(value - 1.0) <= CLOSE else f"recorded = {_spelled(value)} x right"
-    return _product(ratio, _quantities(case, there))
+        return f"recorded = {_spelled(value)} x right"
+    right = np.broadcast_to(case.right, case.recorded.shape)[..., there]
+    if _fits(ratio / right):
+        return "recorded = right^2"
+    return _product(ratio, _quantities(case, there)) or _of_colours(case.recorded[..., there], right)
+
+
+def _of_colours(recorded, right):
+    """What tells the three channels apart; "" for other numbers."""
+    if recorded.ndim != 2 or _alike(right[0], right):
+        return ""
+    if _alike(recorded[0], recorded):
+        mean = _alike(right.mean(axis=0), recorded)
+        return f"recorded is {'the mean of the colours' if mean else 'the same for all colours'}"
+    good = [_alike(a, b[None]) for a, b in zip(recorded, right, strict=True)]
+    if any(good):
+        names = [name for name, there in zip(("red", "green", "blue"), good, strict=True) if there]
+        return f"{' and '.join(names)} {'are' if len(names) > 1 else 'is'} right, the rest not"
+    return ""
+
+
+def _alike(one, several):
+    """Whether nearly all of (M, K) are the number (K,)."""
+    return bool((np.abs(several - one) <= CLOSE * np.abs(one)).all(axis=0).mean() >= SHARE)
 
 
 def _ratio(case):
