@@ -39,6 +39,10 @@ def _integer(text, place=""):
 _SET = "say a word of the scene differently: OBJECT.WORD=VALUE, as in white.reflectance=0.5; may be repeated"
 
 
+class Unsaid(int):
+    """A number that nobody said: the default of an option, which for some files is another."""
+
+
 def path_options(name, without=(), size="default: the scene's", defaults=None):
     """The options that decide a path's numbers as a class of that name, made from the one place where they
     are declared; those in `without` are left out, and defaults {name: value} take the place of theirs."""
@@ -54,6 +58,7 @@ def path_options(name, without=(), size="default: the scene's", defaults=None):
         text = f.metadata["help"] + (f": {', '.join(map(str, choices))}" if choices else "")
         converter = _whole if f.type is int else None
         default = (defaults or {}).get(f.name, f.default)
+        default = Unsaid(default) if f.name == "spp" else default
         columns.append((f.name, Annotated[f.type, Parameter(help=text, converter=converter)], default))
     if "set" not in without:
         columns.append(
@@ -118,5 +123,6 @@ def settings_and_steps(options):
     options = options or PathOptions()
     width, height = options.size or (None, None)
     said = {f.name: getattr(options, f.name) for f in fields(options) if f.name not in ("size", "set")}
+    said |= {"spp": int(said["spp"])} if "spp" in said else {}
     settings = Settings(width=width, height=height, **said)
     return settings, planted(settings)

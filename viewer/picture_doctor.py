@@ -1,8 +1,11 @@
 """`castray doctor PICTURE`: what a picture alone says."""
 
+from dataclasses import replace
+from functools import cache
+
 from lessons.zoo import ZOO
 from lessons.zoo.pictures import album, mixtures, suited
-from tracer.doctor.picture import judged, opened
+from tracer.doctor.picture import judged, likelier_curve, opened
 from tracer.picture import check_path
 from tracer.settings import TracerError
 from viewer.options import DoctorOptions, scene_of
@@ -20,12 +23,23 @@ def opinion_of(path, scene, options=None, gamma=None, output=None):
     given, loaded = opened(path, gamma), scene_of(scene, options)
     with watched(Speaker()("pic.rendering")) as progress:
         opinion, known = opinion_on(given, loaded, spp, progress)
+    if gamma is not None and given[1]:
+        opinion = replace(opinion, likelier=likelier_curve(given[0], opinion, known, spp))
     return opinion, loaded, known
 
 
-def opinion_on(given, scene, spp=None, progress=None):
-    """The Opinion on what `opened` gives of a picture of a scene, and the Album it was compared with."""
-    known = album(scene, suited(scene, ZOO.values()), progress)
+@cache
+def album_of(text):
+    """A scene by its name or file, and the Album of it, made once: for many pictures of one scene."""
+    scene = scene_of(text, None)
+    return scene, album(scene, suited(scene, ZOO.values()))
+
+
+def opinion_on(given, scene, spp=None, progress=None, known=None):
+    """The Opinion on what `opened` gives of a picture of a scene, and the Album it was compared with; known:
+    that Album, if it is made already."""
+    if known is None:
+        known = album(scene, suited(scene, ZOO.values()), progress)
     values, eight_bits, curves = given
     return judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO), spp), known
 

@@ -27,6 +27,7 @@ def as_dict(opinion, picture, scene, album):
     """The JSON of `castray doctor PICTURE`: findings stays empty, since a picture proves nothing."""
     reading = opinion.reading
     read = {"curve": reading.curve, "turned": reading.turn, "shape": reading.shape}
+    read |= {"likelier": opinion.likelier} if opinion.likelier is not None else {}
     return {
         "picture": str(picture),
         "scene": scene.name,
@@ -78,6 +79,8 @@ def print_opinion(opinion, picture, scene, album, guessed, console=None):
     console.print(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene)))
     for said in _how_read(opinion.reading, guessed, say):
         console.print(Text(said, style="yellow"))
+    if opinion.likelier is not None:
+        console.print(Text(say("pic.likelier", reading=_read_as(opinion.likelier, say)), style="yellow"))
     console.print()
     if opinion.is_right:
         console.print(Text(say("pic.right"), style="bold green"))
@@ -101,14 +104,18 @@ def beside(picture, scene):
 
 def _how_read(reading, guessed, say):
     if reading.curve is not None:
-        words = {"srgb": "pic.curve_srgb", 1.0: "pic.curve_none"}.get(reading.curve, "pic.curve_gamma")
-        said = say(words, gamma=reading.curve)
+        said = _read_as(reading.curve, say)
         odd = guessed and reading.curve != "srgb"
         yield f"{said} {say('pic.curve_guessed')}" if odd else said
     if reading.turn:
         yield say(f"pic.turn_{reading.turn}")
     if reading.shape:
         yield say(f"pic.shape_{reading.shape}")
+
+
+def _read_as(curve, say):
+    words = {"srgb": "pic.curve_srgb", 1.0: "pic.curve_none"}.get(curve, "pic.curve_gamma")
+    return say(words, gamma=curve)
 
 
 def _print_nothing(opinion, say, console):
@@ -128,7 +135,7 @@ def said_of(h, album, say):
     """Lines on a hypothesis; the first names it."""
     if h.factor is not None:
         yield say("pic.factor_samples" if h.bugs else "pic.factor", factor=h.factor)
-    else:
+    elif h.bugs:
         yield say("pic.fits", bugs=" + ".join(h.bugs))
     for bug in h.bugs:
         yield f"{bug}  {bug_title(bug, say)}"

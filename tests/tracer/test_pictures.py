@@ -15,7 +15,7 @@ from cases import loaded, slow_but
 import tracer
 from lessons.zoo import ZOO, alike
 from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, suited
-from tracer.doctor.picture import Hypothesis, features, fit, judged, resampled
+from tracer.doctor.picture import Hypothesis, features, fit, judged, likelier_curve, resampled
 from tracer.doctor.picture.walls import shown
 from tracer.picture import to_srgb
 
@@ -95,6 +95,16 @@ def test_the_curve_of_the_homework_is_found_and_undone():
     assert found.is_right and found.reading.curve == 0.6
     assert found.reading.rgb == pytest.approx(np.clip(picture(), 0.0, 1.0), abs=0.01)
     assert not opinion(screen(picture(), 0.6), ("srgb",)).is_right
+
+
+def test_a_curve_that_was_said_wrongly_is_told_from_the_likelier_one():
+    for values, said, likelier in ((screen(picture()), 0.6, "srgb"), (screen(picture(), 0.6), 0.6, None)):
+        assert likelier_curve(values, opinion(values, (said,)), stored()) == likelier
+
+
+def test_a_picture_without_any_light_is_called_black_and_nothing_else():
+    (found,) = opinion(np.zeros((48, 48, 3))).hypotheses
+    assert (found.bugs, found.marks) == ((), (("black", 1.0),))
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,11 @@ from suite import castray
 
 import tracer
 from lessons.zoo import ZOO
+from tracer.doctor.picture import Hypothesis
 from tracer.learner import starter
 from viewer.checking import report
-from viewer.checking.submission import FAILED, RIGHT, SKIPPED, WRONG, Row, files_in, row_of
+from viewer.checking.limited import Judge
+from viewer.checking.submission import FAILED, MAYBE, RIGHT, SKIPPED, WRONG, Row, files_in, row_of
 from viewer.options import CheckOptions
 from viewer.replay import of_scene
 from viewer.words import Speaker
@@ -72,6 +74,22 @@ def test_the_row_says_an_error_without_its_name_and_in_chinese():
 def test_a_tracer_that_hangs_is_ended_and_is_a_row(tmp_path):
     found = row(tmp_path, "hang.py", "while True:\n    print('spam')\n", seconds=1.0)
     assert found.state == FAILED and "not done after 1 s" in found.error
+
+
+@pytest.mark.slow
+def test_a_log_that_takes_too_long_is_a_row_and_the_next_one_is_judged(tmp_path):
+    for name in ("a.jsonl", "b.jsonl"):
+        (tmp_path / name).write_text("nonsense", encoding="utf-8")
+    with Judge("cornell", FEW, 1e-9) as judge:
+        assert "not done after" in judge.row(tmp_path / "a.jsonl", "a.jsonl").error
+        judge._asked = "cornell", FEW, 60.0
+        assert "line 1" in judge.row(tmp_path / "b.jsonl", "b.jsonl").error
+
+
+def test_a_picture_is_called_by_the_title_of_what_it_fits():
+    found = Row("p.png", MAYBE, found=Hypothesis(("E01",)))
+    assert report.finding(found, SAY) == f"E01 {ZOO['E01'].title}"
+    assert "black" in report.finding(Row("p.png", MAYBE, found=Hypothesis(())), SAY)
 
 
 def test_broken_logs_and_pictures_are_rows_and_other_files_are_skipped(tmp_path):

@@ -6,9 +6,9 @@ import tracer
 from tracer.doctor.diagnosis import Diagnosis, followed, ranked
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
-from viewer.options import CheckOptions, settings_and_steps
+from viewer.options import CheckOptions, Unsaid, settings_and_steps
 
-SIDE, SPP = 24, CheckOptions().spp  # of the small picture that is traced unless said
+SIDE, SPP = 24, int(CheckOptions().spp)  # of the small picture that is traced unless said
 
 
 def settings_of(options):
@@ -16,7 +16,7 @@ def settings_of(options):
     settings, _ = settings_and_steps(options)
     if settings.width is None:
         settings = replace(settings, width=SIDE, height=SIDE)
-    if options is None or options.spp == type(options)().spp:
+    if options is None or isinstance(options.spp, Unsaid):
         settings = replace(settings, spp=SPP)
     return replace(settings, precision=64, integrator="direct", light_sampling="area", jitter=False)
 

@@ -47,7 +47,9 @@ def finding(row, say):
     if isinstance(row.found, Hypothesis):
         if row.found.factor is not None:
             return say("pic.factor", factor=row.found.factor)
-        return " + ".join(row.found.bugs)
+        if not row.found.bugs:
+            return say("check.black")
+        return " + ".join(f"{bug} {bug_title(bug, say)}" for bug in row.found.bugs)
     named = bugs(row.found, say)
     if not named:  # the law itself is in the next column
         return row.found.explanation or counted(row.found, say)["title"]
@@ -156,6 +158,7 @@ def _detail(found, say):
     if isinstance(found, Hypothesis):
         told = [f"{bug} {bug_title(bug, say)}" for bug in found.bugs]
         told += [say("pic.factor", factor=found.factor)] if found.factor is not None else []
+        told += [say(f"pic.mark_{name}", value=value) for name, value in found.marks]
         head, rows = say("check.hypothesis"), [("", text) for text in told]
     else:
         head = f"{bugs(found, say)} {say('doctor.not_so', **counted(found, say))}".strip()

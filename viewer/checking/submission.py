@@ -92,9 +92,12 @@ def _of_diagnosis(name, diagnosis, command):
 
 
 def _of_picture(path, name, scene):
-    from viewer.picture_doctor import opinion_of
+    from tracer.doctor.picture import opened
+    from viewer.picture_doctor import album_of, opinion_on
 
-    opinion, _, _ = opinion_of(path, scene)
+    given = opened(path)
+    loaded, known = album_of(scene)
+    opinion, _ = opinion_on(given, loaded, known=known)
     command = f"castray doctor {of_scene(path, scene)}"
     if opinion.is_right:
         return Row(name, RIGHT, command=command)

@@ -93,7 +93,8 @@ def _folder(folder, scene, seconds, csv, html, options, json):
     """Every submission of a folder: a row each."""
     from tracer import load
     from viewer.checking import report
-    from viewer.checking.submission import FAILED, WRONG, files_in, row_of
+    from viewer.checking.limited import Judge
+    from viewer.checking.submission import FAILED, WRONG, files_in
     from viewer.progress import watched
     from viewer.words import Speaker
 
@@ -101,9 +102,9 @@ def _folder(folder, scene, seconds, csv, html, options, json):
         check_place(place)
     say, files, rows = Speaker(), files_in(folder), []
     load(scene)  # what is wrong with it is said once
-    with watched(say("check.judging")) as progress:
+    with watched(say("check.judging")) as progress, Judge(scene, options, seconds) as judge:
         for done, (path, name) in enumerate(files):
-            rows.append(row_of(path, name, scene, options, seconds))
+            rows.append(judge.row(path, name))
             if progress:
                 progress(done + 1, len(files))
     if csv is not None:

@@ -2,7 +2,7 @@
 
 from tracer.doctor.picture.features import Features, features, resampled
 from tracer.doctor.picture.fitting import Fit, Looks, fit, misfit
-from tracer.doctor.picture.hypotheses import FITS, LEAST, Hypothesis, Opinion, judged
+from tracer.doctor.picture.hypotheses import FITS, LEAST, Hypothesis, Opinion, judged, likelier_curve
 from tracer.doctor.picture.reading import opened
 from tracer.doctor.picture.walls import Wall, predicted
 
@@ -18,6 +18,7 @@ __all__ = [
     "features",
     "fit",
     "judged",
+    "likelier_curve",
     "misfit",
     "opened",
     "predicted",

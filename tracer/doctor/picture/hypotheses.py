@@ -11,7 +11,7 @@ import numpy as np
 from tracer.doctor.picture.features import CELLS, features, resampled
 from tracer.doctor.picture.fitting import Fit, fit, fits, misfit
 from tracer.doctor.picture.mixing import guesses
-from tracer.doctor.picture.reading import Reading, others, plain
+from tracer.doctor.picture.reading import GAMMA, NONE, SRGB, Reading, others, plain
 from tracer.doctor.picture.walls import shown, walls
 
 MIXED = 0.9  # worse than that, mixtures are tried
@@ -19,6 +19,7 @@ FITS = 1.2  # mean squared deviation; right pictures have about a half
 LEAST = 30.0  # sum of squared deviations that a mistake has to explain
 NEAR = 0.15  # mean squared deviation of two mistakes whose pictures are called the same
 CLOSE = 1.5  # times the least deviation: still worth being named
+_FAR_BETTER = 0.7  # times the deviation: another curve is then worth a word
 WHOLE = "castray"  # an entry that is a mixture already
 _MOST, _RENDERED = 5, 5  # hypotheses that are named; mixtures that are rendered, of each size
 _FACTOR = 0.08  # relative: a picture brighter or darker throughout by less is not called so
@@ -55,7 +56,8 @@ class Hypothesis:
 class Opinion:
     """What a picture alone says. reading: how it was read; hypotheses: the likeliest first; nearest: the one
     that comes nearest where none fits; right: the Fit of the right tracer; walls: each object's brightness;
-    invalid: share of pixels that are no numbers."""
+    invalid: share of pixels that are no numbers; likelier: the curve by which it would fit far better than
+    by the one that was said, None where there is none."""
 
     reading: Reading
     hypotheses: tuple
@@ -63,6 +65,7 @@ class Opinion:
     right: Fit
     walls: tuple
     invalid: float
+    likelier: object = None
 
     @property
     def is_right(self):
@@ -77,6 +80,8 @@ def judged(values, eight_bits, curves, scene, album, mixed, spp=None):
     Looks}. mixed: from ids to the Looks of all those mistakes
     at once, None where they cannot be together. spp: samples per pixel, if known.
     """
+    if not np.nan_to_num(values).any():
+        return _black(values, eight_bits, curves, album, scene)
     reading, seen = _read(values, eight_bits, curves, album, spp)
     right = _nearest(seen, dict(enumerate(album.rights)), spp)
     ranked = _singles(seen, album, spp, right)
@@ -92,6 +97,32 @@ def judged(values, eight_bits, curves, scene, album, mixed, spp=None):
     nearest = ranked[0] if off and not fitting else None
     shown = tuple(walls(reading.rgb, album.picture, scene, eight_bits))
     return Opinion(reading, found, nearest, right, shown, invalid)
+
+
+def _black(values, eight_bits, curves, album, scene):
+    """The Opinion on a picture without any light: it fits mistakes that leave a dark room by chance."""
+    reading = plain(values, eight_bits, curves[0], album.picture.shape[1] / album.picture.shape[0])
+    right = _nearest(features(reading.rgb, eight_bits), dict(enumerate(album.rights)), None)
+    shown = tuple(walls(reading.rgb, album.picture, scene, eight_bits))
+    invalid = float(1.0 - np.isfinite(values).all(axis=2).mean())
+    return Opinion(reading, (Hypothesis((), marks=(("black", 1.0),)),), None, right, shown, invalid)
+
+
+def likelier_curve(values, opinion, album, spp=None):
+    """The usual curve of 8 bits by which a picture's numbers (H, W, 3) fit the right tracer, or one mistake,
+    where by the one that was said they fit none; None where there is none."""
+    known = {**dict(enumerate(album.rights)), **album.bugs}
+
+    def off(rgb):
+        return _nearest(features(rgb, True), known, spp).typical
+
+    aspect = album.picture.shape[1] / album.picture.shape[0]
+    said = opinion.reading.curve
+    curves = [curve for curve in (SRGB, GAMMA, NONE) if curve != said]
+    found = {curve: off(plain(values, True, curve, aspect).rgb) for curve in curves}
+    best = min(found, key=lambda curve: found[curve])
+    before = off(opinion.reading.rgb)
+    return best if found[best] <= FITS < before and found[best] < _FAR_BETTER * before else None
 
 
 def _read(values, eight_bits, curves, album, spp):
