@@ -110,19 +110,18 @@ def _black(values, eight_bits, curves, album, scene):
 
 def likelier_curve(values, opinion, album, spp=None):
     """The usual curve of 8 bits by which a picture's numbers (H, W, 3) fit the right tracer, or one mistake,
-    where by the one that was said they fit none; None where there is none."""
+    far better than by the one that was said; None where there is none."""
     known = {**dict(enumerate(album.rights)), **album.bugs}
 
-    def off(rgb):
-        return _nearest(features(rgb, True), known, spp).typical
-
     aspect = album.picture.shape[1] / album.picture.shape[0]
+
+    def off(curve):
+        return _nearest(features(plain(values, True, curve, aspect).rgb, True), known, spp).typical
+
     said = opinion.reading.curve
-    curves = [curve for curve in (SRGB, GAMMA, NONE) if curve != said]
-    found = {curve: off(plain(values, True, curve, aspect).rgb) for curve in curves}
-    best = min(found, key=lambda curve: found[curve])
-    before = off(opinion.reading.rgb)
-    return best if found[best] <= FITS < before and found[best] < _FAR_BETTER * before else None
+    found = {curve: off(curve) for curve in (SRGB, GAMMA, NONE) if curve != said}
+    best, before = min(found, key=lambda curve: found[curve]), off(said)
+    return best if found[best] <= min(FITS, _FAR_BETTER * before) else None
 
 
 def _read(values, eight_bits, curves, album, spp):
