@@ -256,14 +256,14 @@ def _only(leaves, kind):
 
 
 def _cosine(leaves, n):
-    """The one dot product with the vertex's normal, None where there is none. One with the opposite of it,
-    such as the normal of a lamp above, counts with the other sign: a minus beside it was used, too."""
+    """The one dot product with the vertex's normal, None where there is none. Of one with the opposite of
+    it, such as the normal of a lamp above, only the size counts: which sign was meant stands beside it."""
     found = {}
     for leaf in leaves:
         along = [dot(leaf.of[side], n).value for side in ("a", "b")] if leaf.kind == "dot" else []
         for cos in along:
             if abs(abs(cos) - 1.0) < _SURE:
-                found[id(leaf)] = leaf.value * np.sign(cos)
+                found[id(leaf)] = leaf.value if cos > 0.0 else abs(leaf.value)
     return next(iter(found.values())) if len(found) == 1 else None
 
 
