@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("tracer", "viewer", "lessons", "scenes")
 
 FLOORS = {
+    "tracer.lanes": 0,
     "tracer.frame": 0,
     "tracer.warp": 0,
     "tracer.sampler": 0,
@@ -54,8 +55,11 @@ FLOORS = {
     "viewer": 10,
 }
 
-# On the ground floor only vectors come before the rest.
+# On the ground floor only lanes and vectors come before the rest.
 ORDERED = {
+    ("tracer.frame", "tracer.lanes"),
+    ("tracer.sampler", "tracer.lanes"),
+    ("tracer.event", "tracer.lanes"),
     ("tracer.derived", "tracer.frame"),
     ("tracer.events", "tracer.derived"),
     ("tracer.events", "tracer.event"),

@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracer.lanes import gather
+
 NUMBERED = ("shape", "bsdf", "light", "choice", "index")  # domains of whole numbers, of which -1 is none
 
 
@@ -81,7 +83,7 @@ class Event:
 
     def _of_seen(self, column):
         whole = column.whole() if isinstance(column, Sparse) else column
-        return whole if self._seen is None else whole.take(self._seen, axis=-1)
+        return whole if self._seen is None else gather(whole, self._seen)
 
     @cached_property
     def lane(self):

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracer.lanes import gather, signed
+
 
 def dot(a, b):
     """a . b of two (3, N) arrays, as (N,)."""
@@ -17,15 +19,6 @@ def dot(a, b):
 def cross(a, b):
     """a x b of two (3, N) arrays, as (3, N)."""
     return np.stack((a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]))
-
-
-def put(whole, lanes, part):
-    """Write part (K,) or (3, K) to some lanes of whole (N,) or (3, N): by rows, which NumPy does faster."""
-    if whole.ndim == 1:
-        whole[lanes] = part
-        return
-    for row, of_part in zip(whole, part, strict=True):
-        row[lanes] = of_part
 
 
 def length(a):
@@ -58,7 +51,7 @@ class Frame(NamedTuple):
     @classmethod
     def around(cls, n):
         """The frame around a unit normal that has no singular direction (Duff et al. 2017)."""
-        sign = np.copysign(np.ones_like(n[2]), n[2])
+        sign = signed(np.ones_like(n[2]), n[2])
         a = -1.0 / (sign + n[2])
         b = n[0] * n[1] * a
         s = np.stack((1.0 + sign * (n[0] * n[0]) * a, sign * b, -sign * n[0]))
@@ -79,12 +72,12 @@ class Frame(NamedTuple):
     def with_lanes(self, lanes, make):
         """These frames, but with make(n) for the normals of some lanes."""
         s, t = self.s.copy(), self.t.copy()
-        s[:, lanes], t[:, lanes], _ = make(self.n.take(lanes, axis=1))
+        s[:, lanes], t[:, lanes], _ = make(gather(self.n, lanes))
         return Frame(s, t, self.n)
 
     def take(self, lanes):
         """The frames of some lanes."""
-        return Frame(*(axis.take(lanes, axis=1) for axis in self))
+        return Frame(*(gather(axis, lanes) for axis in self))
 
     def to_local(self, w):
         """World direction (3, N) in this frame."""

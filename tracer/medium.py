@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.frame import dot
+from tracer.lanes import gather
 
 _SAME = -1  # in front and back: the surface bounds no medium
 _WITNESSES = 9  # points of a shape that tell where it lies: one may touch what is around it
@@ -42,7 +43,7 @@ class Media(NamedTuple):
     def of_primitives(self, shape_of, dtype):
         """The same per primitive, of the shapes `shape_of`, in one precision."""
         return Media(
-            self.sigma_t.astype(dtype), self.front.take(shape_of), self.back.take(shape_of), self.camera
+            self.sigma_t.astype(dtype), gather(self.front, shape_of), gather(self.back, shape_of), self.camera
         )
 
     @property
@@ -53,12 +54,12 @@ class Media(NamedTuple):
     def towards(self, hit, wi, medium):
         """Medium (N,) of rays that leave hits along wi (3, N), which came there through `medium` (N,)."""
         behind = np.signbit(dot(hit.ng, wi))  # as `leave` chooses the side
-        beyond = np.where(behind, self.back.take(hit.primitive), self.front.take(hit.primitive))
+        beyond = np.where(behind, gather(self.back, hit.primitive), gather(self.front, hit.primitive))
         return np.where(beyond == _SAME, medium, beyond)
 
     def transmittance(self, medium, distance):
         """exp(-sigma_t t), (3, N), for `medium` and distance in metres (N,)."""
-        return np.exp(-self.sigma_t.take(medium, axis=1) * distance)
+        return np.exp(-gather(self.sigma_t, medium) * distance)
 
 
 def around(surfaces, bsdfs, eye):

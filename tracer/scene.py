@@ -7,6 +7,7 @@ import numpy as np
 
 from tracer.bsdf.table import BsdfTable
 from tracer.frame import Frame, dot
+from tracer.lanes import gather
 from tracer.light.faces import shining_faces
 from tracer.light.sample import DELTA, Ball, luminance
 from tracer.light.table import Lights
@@ -37,7 +38,7 @@ class Hit(NamedTuple):
 
     def take(self, lanes):
         """The hits of some lanes."""
-        return Hit(*(None if column is None else column.take(lanes, axis=-1) for column in self))
+        return Hit(*(None if column is None else gather(column, lanes) for column in self))
 
 
 class Scene:
@@ -147,7 +148,7 @@ class Scene:
         p, ng, bound = self._surfaces.project(o + t * d, primitive)
         wo = -d
         n = self._surfaces.shading_normals(p, ng, wo, primitive)
-        bsdf, light = self.bsdf_of.take(primitive), self.light_of.take(primitive)
+        bsdf, light = gather(self.bsdf_of, primitive), gather(self.light_of, primitive)
         texture = self.painted(p, primitive)
         return Hit(p, t, primitive, ng, n, wo, dot(ng, wo) > 0.0, bsdf, light, bound, texture)
 
@@ -175,8 +176,8 @@ class Scene:
         if not lit.size:
             return hit.p[:, lit], hit.t[lit]
         area = self.lights.area
-        Le = area.radiance.take(hit.light.take(lit), axis=1)
-        return Le, area.pdf(hit.primitive.take(lit), *(v.take(lit, axis=1) for v in (vertex, hit.p, hit.ng)))
+        Le = gather(area.radiance, gather(hit.light, lit))
+        return Le, area.pdf(gather(hit.primitive, lit), *(gather(v, lit) for v in (vertex, hit.p, hit.ng)))
 
     def environment(self, d):
         """Radiance (3, N) that comes from outside the scene against d (3, N), and the density (N,) in sr^-1
@@ -190,7 +191,7 @@ class Scene:
     def occluded(self, hit, light):
         """Whether anything lies between each hit and its point on a light, (N,)."""
         rays, distance, hidden = self._between(
-            hit.p, hit.ng, hit.primitive, light.q, light.nq, light.primitive, light.wi
+            hit.p, hit.ng, hit.bound, hit.primitive, light.q, light.nq, light.primitive, light.wi
         )
         blocked = self._meeting.blocked(rays, distance)
         return blocked if hidden is False else blocked | hidden
@@ -198,20 +199,19 @@ class Scene:
     def blocker(self, vertex, event):
         """First shape (N,) between the hits and light points of recorded events, -1 for none, and its
         distance, inf for none. vertex, event: columns of a HIT and a LIGHT."""
-        rays, distance, hidden = self._between(
-            *(vertex[name] for name in ("p", "ng", "primitive")),
-            *(event[name] for name in ("q", "nq", "primitive", "wi")),
-        )
+        p, n, source = (vertex[name] for name in ("p", "ng", "primitive"))
+        light = (event[name] for name in ("q", "nq", "primitive", "wi"))
+        rays, distance, hidden = self._between(p, n, self.bound(p, n, source), source, *light)
         t, primitive = self._meeting.closest(rays, distance)
         t, primitive = np.where(hidden, 0.0, t), np.where(hidden, rays.source, primitive)
         could_shine = (event["f"].max(axis=0) > 0.0) & (event["Le"].max(axis=0) > 0.0)
         blocked = (t < distance) & (primitive >= 0) & could_shine & ~event["visible"]
         return np.where(blocked, self.shape_of[primitive], -1), np.where(blocked, t, np.inf)
 
-    def _between(self, p, n, source, q, nq, target, wi):
+    def _between(self, p, n, bound, source, q, nq, target, wi):
         """Rays from p to q, both moved off their surfaces towards each other, their lengths (N,), and whether
         the face they start on hides an end that had to be moved, (N,)."""
-        o, goal = leave(p, n, self.bound(p, n, source), wi), leave(q, nq, self.bound(q, nq, target), -wi)
+        o, goal = leave(p, n, bound, wi), leave(q, nq, self.bound(q, nq, target), -wi)
         return self._meeting.between(o, goal, n, source, target, wi)
 
     def frame(self, n, p, primitive):
@@ -220,15 +220,15 @@ class Scene:
         frame = Frame.around(n)
         if not self.bsdf.any_anisotropic:
             return frame
-        lanes = np.flatnonzero(self.bsdf.is_anisotropic(self.bsdf_of.take(primitive)))
-        tangent = self._charts.tangent(p.take(lanes, axis=1), primitive[lanes])
+        lanes = np.flatnonzero(self.bsdf.is_anisotropic(gather(self.bsdf_of, primitive)))
+        tangent = self._charts.tangent(gather(p, lanes), primitive[lanes])
         return frame.with_lanes(lanes, lambda n: Frame.along(n, tangent))
 
     def painted(self, p, primitive):
         """What the textures say at points (3, N), as BsdfTable takes it; None where there are none."""
         if not self.bsdf.any_textured:
             return None
-        return self.bsdf.painted(self.bsdf_of.take(primitive), p, primitive, self.uv)
+        return self.bsdf.painted(gather(self.bsdf_of, primitive), p, primitive, self.uv)
 
     def uv(self, p, primitive):
         """Coordinates (2, N) of points on their primitives."""

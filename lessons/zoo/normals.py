@@ -4,8 +4,9 @@ import numpy as np
 
 from lessons.zoo.bug import Bug
 from lessons.zoo.where import of_shape
-from tracer.frame import Frame, cross, dot, length, normalize, put
+from tracer.frame import Frame, cross, dot, length, normalize
 from tracer.integrator.steps import hit
+from tracer.lanes import put
 from tracer.shape.mesh import Mesh
 
 UNIT = "I11: normals have length 1, and lie on the side of the surface's own"

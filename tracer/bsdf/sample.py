@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracer.lanes import gather
+
 
 class Sample(NamedTuple):
     """One sampled direction per lane, with what eval and pdf say about it."""
@@ -17,7 +19,7 @@ class Sample(NamedTuple):
 
     def take(self, lanes):
         """The samples of some lanes."""
-        return Sample(*(column.take(lanes, axis=-1) for column in self))
+        return Sample(*(gather(column, lanes) for column in self))
 
 
 class Material:
@@ -44,7 +46,7 @@ class Material:
 
     def take(self, row):
         """The same material with the columns `row` (N,) of its parameters."""
-        return self._changed(lambda value: value.take(row, axis=-1), lambda inside: inside.take(row))
+        return self._changed(lambda value: gather(value, row), lambda inside: inside.take(row))
 
     def astype(self, dtype):
         """The same material with floating point parameters of another precision."""

@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 
 from tracer.bsdf.sample import Sample
-from tracer.frame import put
+from tracer.lanes import gather, put
 
 
 class BsdfTable:
@@ -64,26 +64,26 @@ class BsdfTable:
                 continue
             if values is None:
                 values = np.zeros((self._slots, *p.shape), p.dtype)
-            here = uv(p.take(lanes, axis=1), primitive[lanes])
+            here = uv(gather(p, lanes), primitive[lanes])
             for slot, texture in enumerate(textures):
                 values[slot][:, lanes] = texture.at(here)
         return values
 
     def is_delta(self, material):
         """Whether each material has nothing but Dirac lobes, for (N,) material numbers."""
-        return self._delta_of.take(material)
+        return gather(self._delta_of, material)
 
     def is_anisotropic(self, material):
         """Whether each material minds how its frame is turned about the normal."""
-        return self._anisotropic_of.take(material)
+        return gather(self._anisotropic_of, material)
 
     def reflects(self, material, wo):
         """Whether anything can be scattered towards wo (3, N): not black, and not seen from behind."""
         front = wo[2] > 0.0
         if self._plain:
             return front
-        two_sided = ~self._one_sided_of.take(material)
-        return (front | (two_sided & (wo[2] < 0.0))) & ~self._black_of.take(material)
+        two_sided = ~gather(self._one_sided_of, material)
+        return (front | (two_sided & (wo[2] < 0.0))) & ~gather(self._black_of, material)
 
     def eval(self, material, wo, wi, texture=None):
         """f (3, N) in sr^-1. texture: what `painted` says, here and below."""
@@ -118,7 +118,7 @@ class BsdfTable:
         """What `ask(material with parameters per lane, lanes)` gives, put together over the kinds."""
         if len(self._kinds) == 1:
             return ask(self._gathered(0, material, texture), slice(None))
-        kind = self._kind_of.take(material)
+        kind = gather(self._kind_of, material)
         parts = []
         for number in range(len(self._kinds)):
             lanes = np.flatnonzero(kind == number)
@@ -137,25 +137,25 @@ class BsdfTable:
         if self._single[number] and not puts:
             return kind
         if len(self._kinds) > 1:
-            return self._with_textures(kind.take(self._row_of.take(material)), puts, material, texture)
+            return self._with_textures(kind.take(gather(self._row_of, material)), puts, material, texture)
         if self._last[0] is not material or self._last[1] is not texture:
             # eval, pdf and sample of one vertex ask for the same
-            taken = self._with_textures(kind.take(self._row_of.take(material)), puts, material, texture)
+            taken = self._with_textures(kind.take(gather(self._row_of, material)), puts, material, texture)
             self._last = material, texture, taken
         return self._last[2]
 
     def _with_textures(self, kind, puts, material, texture):
         """Columns of its own, with what textures say in the place of parameters."""
         for (*inside, parameter), slot, has in puts:
-            lanes = np.flatnonzero(has.take(material))
+            lanes = np.flatnonzero(gather(has, material))
             column = getattr(reduce(getattr, inside, kind), parameter)
-            column[:, lanes] = texture[slot].take(lanes, axis=1)
+            column[:, lanes] = gather(texture[slot], lanes)
         return kind
 
 
 def _some(w, lanes):
     """Columns of w (3, N) at some lanes."""
-    return w if isinstance(lanes, slice) else w.take(lanes, axis=1)
+    return w if isinstance(lanes, slice) else gather(w, lanes)
 
 
 def _scatter(where, parts, n):

@@ -6,8 +6,9 @@ import numpy as np
 
 from tracer.event import Sparse
 from tracer.events import BOUNCE, HIT, LIGHT, ROULETTE, TECHNIQUES
-from tracer.frame import cos_theta, put
+from tracer.frame import cos_theta
 from tracer.integrator.steps import RIGHT, any_channel
+from tracer.lanes import gather, put
 from tracer.settings import TracerError
 
 _DELTA = TECHNIQUES.index("delta")
@@ -67,7 +68,7 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
         lanes = np.flatnonzero(~scene.bsdf.is_delta(hit.bsdf))
         if not lanes.size:
             return None
-        paths, hit, frame, wo = paths.take(lanes), hit.take(lanes), frame.take(lanes), wo.take(lanes, axis=1)
+        paths, hit, frame, wo = paths.take(lanes), hit.take(lanes), frame.take(lanes), gather(wo, lanes)
     u = wave.random(paths.pixel, paths.sample, paths.depth, "light")
     light = wave.steps.light_point(scene, hit, u)
     wi = frame.to_local(light.wi)
@@ -87,7 +88,7 @@ def sample_lights(scene, wave, paths, hit, frame, wo):
 def add_light(scene, wave, paths, hit, direct, w):
     """Cast the shadow rays that can carry light and add what arrives; yield the event, return the paths."""
     lanes, light, f, cos, pdf_bsdf, u, left = direct
-    beta = paths.beta if isinstance(lanes, slice) else paths.beta.take(lanes, axis=1)
+    beta = paths.beta if isinstance(lanes, slice) else gather(paths.beta, lanes)
     arriving = wave.steps.light_term(beta, f, cos, light, w)
     through = {}
     if left is not None:

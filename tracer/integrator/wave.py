@@ -7,8 +7,8 @@ import numpy as np
 
 from tracer import sampler as samplers
 from tracer.events import CAMERA, END, END_REASONS, ESCAPE
-from tracer.frame import put
 from tracer.integrator.steps import RIGHT
+from tracer.lanes import gather, put
 
 _REASON = {reason: np.int8(code) for code, reason in enumerate(END_REASONS)}
 
@@ -40,7 +40,7 @@ class Paths(NamedTuple):
 
     def take(self, lanes):
         """The paths of some lanes."""
-        return Paths(*(None if column is None else column.take(lanes, axis=-1) for column in self))
+        return Paths(*(None if column is None else gather(column, lanes) for column in self))
 
     def gain(self, contribution, lanes=slice(None)):
         """The paths with radiance (3, K) added to those at places `lanes`, all of them unless said."""
@@ -110,7 +110,7 @@ class Wave:
             if lost.size:
                 yield from self._escape(scene, paths, lost, strategy)
             lanes, self._over = np.flatnonzero(met & alive), 0
-            paths, t, primitive = paths.take(lanes), t.take(lanes), primitive.take(lanes)
+            paths, t, primitive = paths.take(lanes), gather(t, lanes), gather(primitive, lanes)
         if paths.medium is not None:
             left = self.steps.transmittance(scene, paths.medium, t)
             paths = paths._replace(beta=paths.beta * left, transmittance=left)
@@ -119,16 +119,14 @@ class Wave:
     def _escape(self, scene, paths, lanes, strategy):
         """Yield the events of those paths (their places: lanes) that leave the scene, with the environment's
         light, and of their end."""
-        lane, depth, d, L = (
-            column.take(lanes, axis=-1) for column in (paths.lane, paths.depth, paths.d, paths.L)
-        )
+        lane, depth, d, L = (gather(column, lanes) for column in (paths.lane, paths.depth, paths.d, paths.L))
         w = pdf = np.zeros(lane.shape, L.dtype)
         Le = contribution = np.zeros_like(L)
         around = scene.environment(d)
         if around is not None:
             Le, pdf = around
-            w = self.steps.emission_weight(self.settings, strategy, paths.pdf_bsdf.take(lanes), pdf)
-            contribution = paths.beta.take(lanes, axis=1) * Le * w
+            w = self.steps.emission_weight(self.settings, strategy, gather(paths.pdf_bsdf, lanes), pdf)
+            contribution = gather(paths.beta, lanes) * Le * w
             L = L + contribution
         yield ESCAPE(lane, depth, d=d, Le=Le, pdf_light=pdf, w=w, contribution=contribution)
         yield self._end(lane, depth, L, "escaped")
@@ -158,7 +156,9 @@ class Wave:
 
     def end(self, paths, lanes, reason):
         """The paths at these places are over: the event of their end."""
-        return self._end(paths.lane.take(lanes), paths.depth.take(lanes), paths.L.take(lanes, axis=1), reason)
+        return self._end(
+            gather(paths.lane, lanes), gather(paths.depth, lanes), gather(paths.L, lanes), reason
+        )
 
     def _end(self, lane, depth, L, reason):
         """Paths leave their radiance L (3, N); the event of their end.
@@ -178,4 +178,4 @@ class Wave:
 
 def _take(column, lanes):
     """Some lanes of an array, or of a record of arrays."""
-    return column.take(lanes, axis=-1) if isinstance(column, np.ndarray) else column.take(lanes)
+    return gather(column, lanes) if isinstance(column, np.ndarray) else column.take(lanes)

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer import warp
-from tracer.frame import dot, put
+from tracer.frame import dot
+from tracer.lanes import gather, put
 from tracer.light import rectangle, sphere
 from tracer.light.sample import AREA, CONE, SOLID_ANGLE, LightSample
 
@@ -93,13 +94,13 @@ class AreaLights:
                 self._light, self._primitive, self._pick, self._chance, self.radiance,
             )  # fmt: skip
         else:
-            light = self._light.take(face)
+            light = gather(self._light, face)
             primitive, pick, chance = (
-                self._primitive.take(face),
-                self._pick.take(light),
-                self._chance.take(face),
+                gather(self._primitive, face),
+                gather(self._pick, light),
+                gather(self._chance, face),
             )
-            radiance = self.radiance.take(light, axis=1)
+            radiance = gather(self.radiance, light)
         n = distance.shape
         return LightSample(
             np.broadcast_to(light, n),
@@ -122,30 +123,30 @@ class AreaLights:
     def pdf(self, primitive, p, q, n):
         """Density in sr^-1 with which sample, from p (3, N), gives the direction to q on `primitive` (N,),
         whose normal there is n."""
-        face = self._face_of.take(primitive)
+        face = gather(self._face_of, primitive)
         to_light = q - p
         square = dot(to_light, to_light)
-        density = self._pdf_area.take(face) * square * np.sqrt(square) / np.abs(dot(n, to_light))
+        density = gather(self._pdf_area, face) * square * np.sqrt(square) / np.abs(dot(n, to_light))
         if self._only != AREA:
-            way = self._way.take(face)
+            way = gather(self._way, face)
             for technique, seen in ((SOLID_ANGLE, self._solid_angle), (CONE, self._cone)):
                 lanes = np.flatnonzero(way == technique)
                 if lanes.size:
-                    omega = seen(p.take(lanes, axis=1), face[lanes])
+                    omega = seen(gather(p, lanes), face[lanes])
                     dark = density[lanes] if technique == SOLID_ANGLE else 0.0  # on a sphere
                     density[lanes] = np.where(omega > 0.0, 1.0 / omega, dark)
-        return density * self._chance.take(face)
+        return density * gather(self._chance, face)
 
     def _drawn(self, p, u, face):
         """technique (N,), q and nq (3, N), density (N,): per m^2 where the technique is AREA."""
         if self._only is not None:
             return self._draw[self._only](self, p, u, slice(0, 1) if self.count == 1 else face)
-        way = self._way.take(face)
+        way = gather(self._way, face)
         parts = []
         for technique, draw in self._draw.items():
             lanes = np.flatnonzero(way == technique)
             if lanes.size or not parts:
-                parts.append((lanes, draw(self, p.take(lanes, axis=1), u.take(lanes, axis=1), face[lanes])))
+                parts.append((lanes, draw(self, gather(p, lanes), gather(u, lanes), face[lanes])))
         return scattered(parts, p.shape[1])
 
     def _by_area(self, p, u, face):

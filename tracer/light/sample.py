@@ -6,6 +6,7 @@ import numpy as np
 
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
+from tracer.lanes import gather
 
 # Codes of the event field `technique`.
 AREA, SOLID_ANGLE, CONE, DELTA, IMAGE = (
@@ -58,4 +59,4 @@ class LightSample(NamedTuple):
 
     def take(self, lanes):
         """The samples of some lanes."""
-        return LightSample(*(column.take(lanes, axis=-1) for column in self))
+        return LightSample(*(gather(column, lanes) for column in self))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.light.area import AreaLights, scattered
 from tracer.light.sample import DELTA, LightSample, luminance
 
@@ -44,13 +45,11 @@ class Lights:
         parts = []
         if self.area is not None:
             lanes = np.flatnonzero(entry < self._faces)
-            parts.append(
-                (lanes, self.area.sample(p.take(lanes, axis=1), u[1:].take(lanes, axis=1), entry[lanes]))
-            )
+            parts.append((lanes, self.area.sample(gather(p, lanes), gather(u[1:], lanes), entry[lanes])))
         for k in range(len(self._others)):
             lanes = np.flatnonzero(entry == self._faces + k)
             if lanes.size or not parts:
-                parts.append((lanes, self._elsewhere(k, p.take(lanes, axis=1), u[1:].take(lanes, axis=1))))
+                parts.append((lanes, self._elsewhere(k, gather(p, lanes), gather(u[1:], lanes))))
         return LightSample(*scattered(parts, entry.size))
 
     def _elsewhere(self, k, p, u):

@@ -24,6 +24,7 @@ from functools import cache
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.sampler.numbers import USES, common, dimension, pcg4d, uniform
 
 _FILM = (1, 774611)
@@ -67,7 +68,7 @@ class Lattice:
         if depth.max(initial=0) >= DEPTHS:
             point = point * _multiplier(pixel, replicate, depth // DEPTHS, seed)
         shifts = pcg4d(pixel, replicate, dimension(depth, use), seed, USES[use])
-        words = COMPONENTS[use].take(depth % DEPTHS, axis=1) * point
+        words = gather(COMPONENTS[use], depth % DEPTHS) * point
         for word, shift in zip(words, shifts, strict=True):
             word += shift
         return uniform(words, self.dtype)
@@ -84,8 +85,10 @@ def radical_inverse(number):
     """The bits of 32-bit numbers (N,) in reverse."""
     reverse = _reversed_halves()
     if number.max(initial=0) <= 0xFFFF:
-        return reverse.take(number)
-    return reverse.take(number & np.uint32(0xFFFF)) | (reverse.take(number >> np.uint32(16)) >> np.uint32(16))
+        return gather(reverse, number)
+    return gather(reverse, number & np.uint32(0xFFFF)) | (
+        gather(reverse, number >> np.uint32(16)) >> np.uint32(16)
+    )
 
 
 @cache

@@ -14,6 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracer.lanes import gather
+
 LEAF = 4  # triangles in a leaf
 ALONE = 32  # triangles that a tree would not make faster: they are one leaf
 _HALVINGS = 3  # in one step: 8 children to a node
@@ -52,13 +54,13 @@ def build(low, high):
 def _halved(numbers, centre, levels):
     """`numbers` (M,) in the order of the leaves of a tree of so many levels; number k stands for the triangle
     with centre k modulo F of (F, 3)."""
-    place = centre.T.take(numbers % len(centre), axis=1)
+    place = gather(centre.T, numbers % len(centre))
     for level in range(levels):
         rows = place.reshape(3, 1 << level, -1)
         node, size = np.arange(1 << level), rows.shape[2]
         along = rows[np.ptp(rows, axis=2).argmax(axis=0), node]
         order = np.argpartition(along, size // 2 - 1, axis=1) + size * node[:, None]
-        numbers, place = numbers.take(order.ravel()), place.take(order.ravel(), axis=1)
+        numbers, place = gather(numbers, order.ravel()), gather(place, order.ravel())
     return numbers
 
 
@@ -78,7 +80,7 @@ def enter(tree, o, over_d, within):
     box = np.stack((tree.low, tree.high))[:, :, None, None]
     met, near = _enters(box, o, over_d, within)
     lanes = np.flatnonzero(met[0])
-    return lanes, near[0].take(lanes) <= 0.0
+    return lanes, gather(near[0], lanes) <= 0.0
 
 
 def first_leaves(tree, o, over_d, within):
@@ -96,7 +98,7 @@ def first_leaves(tree, o, over_d, within):
                 np.copyto(child, k, where=near[k] < best)
                 best = np.minimum(best, near[k])
             going = np.flatnonzero(best < np.inf)
-            node, lane = (node * len(near) + child).take(going), lane.take(going)
+            node, lane = gather((node * len(near) + child), going), gather(lane, going)
         leaves.append(node)
         lanes.append(lane)
     return np.concatenate(leaves), np.concatenate(lanes)
@@ -119,10 +121,10 @@ def all_leaves(tree, o, over_d, within, starting):
             met, near = _children(step, parent, some, o, over_d, within)
             place = np.flatnonzero(met)
             child, pair = np.divmod(place, some.size)
-            nodes.append(parent.take(pair) * len(met) + child)
-            lanes.append(some.take(pair))
+            nodes.append(gather(parent, pair) * len(met) + child)
+            lanes.append(gather(some, pair))
             if last:
-                inside.append(near.ravel().take(place) <= 0.0)
+                inside.append(gather(near.ravel(), place) <= 0.0)
         node, lane = np.concatenate(nodes), np.concatenate(lanes)
         if last:
             starting = np.concatenate(inside)
@@ -132,7 +134,7 @@ def all_leaves(tree, o, over_d, within, starting):
 def _children(step, node, lane, o, over_d, within):
     """_enters for the W children of nodes (P,) and the rays of lanes (P,)."""
     boxes = columns(step, node).reshape(2, 3, step.shape[1] // 6, -1)
-    return _enters(boxes, o.take(lane, axis=1), over_d.take(lane, axis=1), within.take(lane))
+    return _enters(boxes, gather(o, lane), gather(over_d, lane), gather(within, lane))
 
 
 def columns(table, row):

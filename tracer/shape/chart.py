@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.frame import cross, dot, length
+from tracer.lanes import gather
 
 LARGEST = 1e6  # of coordinates and of what a texture makes of them: beyond, float32 has no digit for a texel
 STEEPEST = 1e18  # of gradients per metre, on slivers: so that all that follows is a number in float32
@@ -58,18 +59,18 @@ class Charts:
     def uv(self, p, primitive):
         """Coordinates (2, N) of points (3, N) on their primitives (N,)."""
         origin, uv, grad_u, grad_v, _ = self._flat
-        out = p - origin.take(primitive, axis=1)
-        along = np.stack([dot(grad.take(primitive, axis=1), out) for grad in (grad_u, grad_v)])
-        along += uv.take(primitive, axis=1)
+        out = p - gather(origin, primitive)
+        along = np.stack([dot(gather(grad, primitive), out) for grad in (grad_u, grad_v)])
+        along += gather(uv, primitive)
         for lanes, shape in self._on_round(primitive):
-            along[:, lanes] = shape.uv_at(p.take(lanes, axis=1))
+            along[:, lanes] = shape.uv_at(gather(p, lanes))
         return along
 
     def tangent(self, p, primitive):
         """Unit dp/du (3, N) there; 0 where it does not exist."""
-        tangent = self._flat.tangent.take(primitive, axis=1)
+        tangent = gather(self._flat.tangent, primitive)
         for lanes, shape in self._on_round(primitive):
-            tangent[:, lanes] = shape.tangent_at(p.take(lanes, axis=1))
+            tangent[:, lanes] = shape.tangent_at(gather(p, lanes))
         return tangent
 
     def _on_round(self, primitive):

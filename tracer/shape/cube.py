@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from tracer.frame import dot
+from tracer.lanes import gather
 from tracer.shape import transform
 from tracer.shape.chart import Chart
 from tracer.shape.rays import hits_only, linear
@@ -129,8 +130,35 @@ class CubeKernel:
         """Distance to the first face met, inf for a miss; the rays in the cube's frame, and which enter."""
         o = [linear(row, rays.o) + shift for row, shift in zip(self.rows, self.shift, strict=True)]
         d = [linear(row, rays.d) for row in self.rows]
+        near, far = self._slabs(o, d)
+        if np.isnan(near).any():
+            near, far = self._slabs(o, d, some_along=True)
+        hit = (near <= far) & (far > 0.0)
+        entering = near > 0.0
+        t = hits_only(near, hit)
+        inside = hit & ~entering
+        own = (rays.source >= self.first) & (rays.source <= self.last)
+        if inside.any():
+            lanes = np.flatnonzero(inside & ~own)
+            t[lanes] = gather(far, lanes)
+        if own.any():
+            self._from_own_face(t, o, d, rays, np.flatnonzero(own))
+            entering &= ~own
+        if rays.touched is not None:
+            close = inside if self.outer else self._at_surface(o)
+            close = np.flatnonzero(close & (rays.source >= 0) & ~own)
+            if close.size:
+                self._touch(np.stack([gather(o_k, close) for o_k in o]), rays, close)
+        if rays.target is not None:
+            aimed = np.flatnonzero((rays.target >= self.first) & (rays.target <= self.last))
+            if aimed.size:  # a face does not hide the point on it that a ray is aimed at
+                same = self._face(o, d, entering, t, aimed) == rays.target[aimed]
+                t[aimed[same]] = np.inf
+        return t, partial(self._face, o, d, entering, t)
+
+    def _slabs(self, o, d, some_along=False):
+        """Distances (N,) at which rays are in all three slabs and leave the first of them."""
         near = far = None
-        some_along = not (d[0] * d[1] * d[2]).all()
         for o_k, d_k in zip(o, d, strict=True):
             inverse = self.one / d_k
             low, high = (-self.one - o_k) * inverse, (self.one - o_k) * inverse
@@ -141,27 +169,7 @@ class CubeKernel:
                 np.copyto(leave, np.inf, where=along)
             near = enter if near is None else np.maximum(near, enter)
             far = leave if far is None else np.minimum(far, leave)
-        hit = (near <= far) & (far > 0.0)
-        entering = near > 0.0
-        t = hits_only(near, hit)
-        inside = hit & ~entering
-        if inside.any():
-            np.copyto(t, far, where=inside)
-        own = (rays.source >= self.first) & (rays.source <= self.last)
-        if own.any():
-            self._from_own_face(t, o, d, rays, np.flatnonzero(own))
-            entering &= ~own
-        if rays.touched is not None:
-            close = inside if self.outer else self._at_surface(o)
-            close = np.flatnonzero(close & (rays.source >= 0) & ~own)
-            if close.size:
-                self._touch(np.stack([o_k.take(close) for o_k in o]), rays, close)
-        if rays.target is not None:
-            aimed = np.flatnonzero((rays.target >= self.first) & (rays.target <= self.last))
-            if aimed.size:  # a face does not hide the point on it that a ray is aimed at
-                same = self._face(o, d, entering, t, aimed) == rays.target[aimed]
-                t[aimed[same]] = np.inf
-        return t, partial(self._face, o, d, entering, t)
+        return near, far
 
     def _from_own_face(self, t, o, d, rays, lanes):
         """Put right the distances of rays that start on this cube: none outwards, the far side inwards.
@@ -169,13 +177,13 @@ class CubeKernel:
         Inwards the origin is put back into the cube first, so that a start within rounding of an edge
         cannot slip out between two faces.
         """
-        outward = self.outward.take(rays.source.take(lanes) - self.first, axis=1)
+        outward = gather(self.outward, gather(rays.source, lanes) - self.first)
         t[lanes] = np.inf
-        lanes = lanes[dot(outward, rays.d.take(lanes, axis=1)) <= 0.0]
+        lanes = lanes[dot(outward, gather(rays.d, lanes)) <= 0.0]
         if lanes.size:
-            far, local = np.inf, np.stack([o_k.take(lanes) for o_k in o])
+            far, local = np.inf, np.stack([gather(o_k, lanes) for o_k in o])
             for o_k, d_k in zip(local, d, strict=True):
-                d_k = d_k.take(lanes)
+                d_k = gather(d_k, lanes)
                 far = np.fmin(far, (np.copysign(self.one, d_k) - np.clip(o_k, -1.0, 1.0)) / d_k)
             t[lanes] = far
             if rays.touched is not None and not self.outer:
@@ -196,11 +204,18 @@ class CubeKernel:
 
     def _face(self, o, d, entering, t, lanes):
         """The face whose plane the hit point is nearest to, of those the ray crosses in its direction."""
-        o, d = (np.stack([v_k[lanes] for v_k in v]) for v in (o, d))
-        p = o + t[lanes] * d
-        crossed = (p * d > 0.0) != entering[lanes]
-        axis = np.argmax(np.abs(p) * crossed, axis=0)
-        return (self.first + 2 * axis + (p[axis, np.arange(lanes.size)] > 0.0)).astype(np.int32)
+        t, entering, height, above = gather(t, lanes), gather(entering, lanes), [], []
+        for o_k, d_k in zip(o, d, strict=True):
+            d_k = gather(d_k, lanes)
+            p = gather(o_k, lanes) + t * d_k
+            height.append(np.abs(p) * ((p * d_k > 0.0) != entering))
+            above.append(p > 0.0)
+        z = height[2] > np.maximum(height[0], height[1])
+        y = (height[1] > height[0]) & ~z
+        above = (above[2] & z) | (above[1] & y) | (above[0] & ~(y | z))
+        return self.first + (
+            above.view(np.int8) + (y.view(np.int8) + 2 * z.view(np.int8)) * np.int8(2)
+        ).astype(np.int32)
 
 
 def _both_ways(local):

@@ -7,6 +7,7 @@ all its planes if all lamps are in front of them, too.
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.shape.rays import linear
 
 _SLACK = 16.0  # machine epsilons by which rounding may put off a distance
@@ -69,7 +70,7 @@ class Shadow:
         if not self._shines:  # no ray is aimed at it
             rays = rays._replace(target=None)
         lanes = np.flatnonzero(self._reached(rays))
-        some, distance = rays.take(lanes, None if rays.touched is None else []), distance.take(lanes)
+        some, distance = rays.take(lanes, None if rays.touched is None else []), gather(distance, lanes)
         blocked = np.zeros(rays.source.shape, bool)
         blocked[lanes] = self.kernel.closest(some, distance)[0] < distance
         hand_on(some, rays, lanes)

@@ -14,6 +14,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.settings import TracerError
 from tracer.shape import bvh, start
 from tracer.shape.mesh_kernel import MeshKernel, sheared_onto_axis
@@ -53,9 +54,9 @@ class EmbreeKernel:
         over_d = bvh.inverse(rays.d)
         lanes, starting = bvh.enter(exact.tree, rays.o, over_d, limit)
         t, face = np.full(n, np.inf, rays.o.dtype), np.full(n, -1, np.int32)
-        proposed = self._propose(rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1), limit.take(lanes))
+        proposed = self._propose(gather(rays.o, lanes), gather(rays.d, lanes), gather(limit, lanes))
         found = np.flatnonzero(proposed >= 0)
-        self._confirm(t, face, rays, lanes.take(found), self.leaf_of.take(proposed.take(found)))
+        self._confirm(t, face, rays, gather(lanes, found), gather(self.leaf_of, gather(proposed, found)))
         again = np.zeros(n, bool)
         again[lanes[found]] = np.isinf(t[lanes[found]])
         if rays.touched is not None:
@@ -77,23 +78,25 @@ class EmbreeKernel:
 
     def _confirm(self, t, face, rays, lanes, leaves):
         """Write into t and face which triangles of leaves (L,) the rays `lanes` (L,) meet first, if any."""
-        shear, axis = sheared_onto_axis(rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1))
+        shear, axis = sheared_onto_axis(gather(rays.o, lanes), gather(rays.d, lanes))
         met, lane, sums = self.exact.through(rays, lanes, shear, axis, leaves, np.arange(lanes.size))
         if met.size:
-            ray = lanes.take(lane)
-            self.exact.nearest(t, face, rays, met, ray, self.exact.heading(rays, ray, axis.take(lane), sums))
+            ray = gather(lanes, lane)
+            self.exact.nearest(
+                t, face, rays, met, ray, self.exact.heading(rays, ray, gather(axis, lane), sums)
+            )
 
     def _touching(self, rays, lanes, over_d):
         """Report which of the rays `lanes`, which start in the box around the mesh, may touch which
         triangles. Returns the lanes of those that may meet one that they touch."""
         exact, before, nowhere = self.exact, len(rays.touched), np.zeros(lanes.size, rays.o.dtype)
-        o, over_d = rays.o.take(lanes, axis=1), over_d.take(lanes, axis=1)
+        o, over_d = gather(rays.o, lanes), gather(over_d, lanes)
         leaf, lane, _ = bvh.all_leaves(exact.tree, o, over_d, nowhere, nowhere == 0.0)
         exact.touching(exact.tree.leaves[leaf], rays, lanes[lane])
         if len(rays.touched) == before:
             return np.empty(0, np.intp)
         lanes, other = rays.touched[-1]
-        own, x = rays.source[lanes], rays.o.take(lanes, axis=1).astype(np.float64)
+        own, x = rays.source[lanes], gather(rays.o, lanes).astype(np.float64)
         near = np.flatnonzero(exact.others.close(own, other, x))
         side, _ = start.relation(exact.others, own[near], other[near], x[:, near])
         return lanes[near[side != 0]]

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.frame import dot, put
+from tracer.frame import dot
+from tracer.lanes import gather, put
 from tracer.shape.start import clear, sides
 
 _PAIRS = 1 << 20  # of faces looked at together
@@ -61,10 +62,10 @@ def _touching(faces, low, high, slack, own, other):
 
 def clear_ends(faces, beside, end, target):
     """Move points (3, N) on primitives `target` (N,) off the faces that touch these there."""
-    count = beside.many.take(target)
+    count = gather(beside.many, target)
     lanes = np.repeat(np.arange(target.size), count)
     place = np.arange(lanes.size) - np.repeat(np.cumsum(count) - count, count)
-    other = beside.other[beside.first.take(target)[lanes] + place]
-    near = np.flatnonzero(faces.close(target[lanes], other, end.take(lanes, axis=1)))
+    other = beside.other[gather(beside.first, target)[lanes] + place]
+    near = np.flatnonzero(faces.close(target[lanes], other, gather(end, lanes)))
     lanes, cleared = clear(faces, end, target, lanes[near], other[near])
     put(end, lanes, cleared)

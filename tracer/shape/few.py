@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.shape.cull import Around, hand_on
 from tracer.shape.mesh_kernel import MeshKernel
 from tracer.shape.rays import hits_only, linear
@@ -83,12 +84,12 @@ class FewKernel:
     def closest(self, rays, within=np.inf):
         """Distance to the nearest triangle, inf where there is none, and what tells which it is."""
         lanes = np.flatnonzero(self._around.passing(rays))
-        o, d, source = rays.o.take(lanes, axis=1), rays.d.take(lanes, axis=1), rays.source.take(lanes)
-        target = None if rays.target is None else rays.target.take(lanes)
+        o, d, source = gather(rays.o, lanes), gather(rays.d, lanes), gather(rays.source, lanes)
+        target = None if rays.target is None else gather(rays.target, lanes)
         near, of_triangle, doubtful = self._met(o, d, source, target)
         t = np.full(rays.source.shape, np.inf, o.dtype)
         t[lanes] = near
-        again = lanes.take(np.flatnonzero(doubtful))
+        again = gather(lanes, np.flatnonzero(doubtful))
         exact = np.empty(0, np.int32)
         if again.size:
             some = rays.take(again, None if rays.touched is None else [])
@@ -101,7 +102,7 @@ class FewKernel:
     def _met(self, o, d, source, target):
         """Distance (N,) to the nearest triangle, inf where there is none; pairs of a triangle and the
         distances (N,) at which it is met; and whether any of that is in doubt, (N,)."""
-        home = self._home.take(np.clip(source - (self.first - 1), 0, self.faces + 1))
+        home = gather(self._home, np.clip(source - (self.first - 1), 0, self.faces + 1))
         best, of_triangle = np.full(source.shape, np.inf, o.dtype), []
         doubtful = np.zeros(source.shape, bool)
         for k, plane in enumerate(self._planes):
@@ -130,13 +131,13 @@ class FewKernel:
     def _numbers(self, t, lanes, of_triangle, again, exact, asked):
         """The triangles that the rays `asked` meet at t."""
         place = np.searchsorted(lanes, asked)
-        t, number = t.take(asked), np.zeros(asked.size, np.int32)
+        t, number = gather(t, asked), np.zeros(asked.size, np.int32)
         for triangle, met in of_triangle[::-1]:
-            number[met.take(place) == t] = triangle
+            number[gather(met, place) == t] = triangle
         number += self.first
         if again.size:
             place = np.minimum(np.searchsorted(again, asked), again.size - 1)
-            same = again.take(place) == asked
+            same = gather(again, place) == asked
             number[same] = exact[place[same]]
         return number
 

@@ -6,7 +6,8 @@ these and asked once more (see `start` and `end`).
 
 import numpy as np
 
-from tracer.frame import dot, length, put
+from tracer.frame import dot, length
+from tracer.lanes import choose, put
 from tracer.shape import end, start
 from tracer.shape.rays import Rays
 
@@ -48,11 +49,11 @@ class Meeting:
         for kernel in self._closest:
             t_k, met = kernel.closest(rays, t)
             nearer = t_k < t
-            if callable(met):
-                lanes = np.flatnonzero(nearer)
-                primitive[lanes] = met(lanes)
+            if isinstance(met, np.ndarray):
+                primitive = choose(nearer, met, primitive)
             else:
-                np.copyto(primitive, met, where=nearer)
+                lanes = np.flatnonzero(nearer)
+                primitive[lanes] = met(lanes) if callable(met) else met
             t = np.fmin(t, t_k)  # fmin: a distance that is not a number is a miss
         return t, primitive
 

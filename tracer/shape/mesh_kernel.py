@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracer.frame import cross, dot, length
+from tracer.lanes import gather
 from tracer.shape import bvh, start
 
 _TESTS = 1 << 14  # pairs of a ray and a triangle in flight: few enough to stay in the cache
@@ -63,13 +64,13 @@ class MeshKernel:
     def _cross(self, rays, lanes, over_d, limit, starting, crossed):
         """Put triples of triangle, lane and heading into `crossed`, those of the nearest hits of the rays
         `lanes` among them. starting: which of these start in the box around everything."""
-        o, d, over_d = (v.take(lanes, axis=1) for v in (rays.o, rays.d, over_d))
-        within = limit.take(lanes)
+        o, d, over_d = (gather(v, lanes) for v in (rays.o, rays.d, over_d))
+        within = gather(limit, lanes)
         sheared, axis = sheared_onto_axis(o, d)
         if self.tree.steps:
             leaf, lane = bvh.first_leaves(self.tree, o, over_d, within)
             met, lane, _ = self.through(rays, lanes, sheared, axis, leaf, lane)
-            self._shorten(within, met, lane, o.take(lane, axis=1), d.take(lane, axis=1))
+            self._shorten(within, met, lane, gather(o, lane), gather(d, lane))
         leaf, lane, starting = bvh.all_leaves(self.tree, o, over_d, within, starting)
         if rays.touched is not None and starting.any():
             begun = np.flatnonzero(starting)
@@ -77,21 +78,21 @@ class MeshKernel:
         met, lane, sums = self.through(rays, lanes, sheared, axis, leaf, lane)
         if met.size:
             crossed.append(
-                (met, lanes.take(lane), self.heading(rays, lanes.take(lane), axis.take(lane), sums))
+                (met, gather(lanes, lane), self.heading(rays, gather(lanes, lane), gather(axis, lane), sums))
             )
 
     def through(self, rays, lanes, sheared, axis, leaf, lane):
         """Triangles (M,) of leaves (P,) that rays pass through, which of `lanes` (M,), and the sums (M,) of
         the edge functions. lane: (P,) the leaves' rays, counted in `lanes`, as are the columns of sheared
         (5, L) and axis (L,). A ray's own triangle and the one it is aimed at are left out."""
-        found, of_pair = [], axis.take(lane)
+        found, of_pair = [], gather(axis, lane)
         step = max(1, _TESTS // self.tree.leaves.shape[1])
         for k in range(3):
             pairs = np.flatnonzero(of_pair == k)
             for begin in range(0, pairs.size, step):
                 some = pairs[begin : begin + step]
-                ray, leaves = lane.take(some), leaf.take(some)
-                sums, inside = self._inside(leaves, ((k + 1) % 3, (k + 2) % 3, k), sheared.take(ray, axis=1))
+                ray, leaves = gather(lane, some), gather(leaf, some)
+                sums, inside = self._inside(leaves, ((k + 1) % 3, (k + 2) % 3, k), gather(sheared, ray))
                 row, column = np.nonzero(inside)
                 if row.size:
                     found.append((self.tree.leaves[leaves[column], row], ray[column], sums[row, column]))
@@ -111,8 +112,8 @@ class MeshKernel:
 
     def _shorten(self, within, met, lane, o, d):
         """Lower the limits of rays to a little beyond the triangles that they surely meet."""
-        n = self.rough_n.take(met, axis=1)
-        height, cos = dot(n, o - self.rough_corner.take(met, axis=1)), dot(n, d)
+        n = gather(self.rough_n, met)
+        height, cos = dot(n, o - gather(self.rough_corner, met)), dot(n, d)
         slack, steep = self.margin[met], np.abs(cos)
         sure = (height * cos < 0.0) & (np.abs(height) > slack) & (steep > _GRAZING)
         beyond = (1.001 * np.abs(height) + slack) / steep
@@ -134,14 +135,14 @@ class MeshKernel:
         theirs, in front where they come from elsewhere."""
         side, source = np.ones(lanes.size), rays.source[lanes] - self.first
         own = np.flatnonzero((source >= 0) & (source < self.faces))
-        away = rays.o.take(lanes[own], axis=1) - self.corners[0].take(source[own], axis=1)
-        side[own] = np.copysign(1.0, dot(self.n.take(source[own], axis=1), away))
+        away = gather(rays.o, lanes[own]) - gather(self.corners[0], source[own])
+        side[own] = np.copysign(1.0, dot(gather(self.n, source[own]), away))
         return side
 
     def _planes(self, rays, lanes):
         """Numbers (N,) of the planes that rays start in, as in self.plane; -1 for other shapes, and -2 where
         they start on none."""
-        source = rays.source.take(lanes)
+        source = gather(rays.source, lanes)
         own = np.flatnonzero((source >= self.first) & (source < self.first + self.faces))
         plane = np.where(source < 0, -2, -1)
         plane[own] = self.plane[source[own] - self.first]
@@ -150,14 +151,14 @@ class MeshKernel:
     def touching(self, triangles, rays, lanes):
         """Say which rays, starting in leaves' boxes, may touch which of their triangles (L, K)."""
         plane = self._planes(rays, lanes)
-        o = rays.o.take(lanes, axis=1)[:, :, None]
+        o = gather(rays.o, lanes)[:, :, None]
         inside = (triangles >= 0) & (plane[:, None] > -2) & (plane[:, None] != self.plane[triangles])
         for low, high, x in zip(self.low, self.high, o, strict=True):
             inside &= (low[triangles] <= x) & (x <= high[triangles])
         row, column = np.nonzero(inside)
         if row.size:
             met = triangles[row, column]
-            height = dot(self.n.take(met, axis=1), o[:, row, 0] - self.corners[0].take(met, axis=1))
+            height = dot(gather(self.n, met), o[:, row, 0] - gather(self.corners[0], met))
             on = np.abs(height) <= self.margin[met]
             rays.touched.append((lanes[row[on]], self.first + met[on]))
 
@@ -183,8 +184,8 @@ class MeshKernel:
 
         heading: (M,) above 0 where the ray goes out through the front, below 0 where it comes in.
         """
-        o, d = rays.o.take(lane, axis=1).astype(np.float64), rays.d.take(lane, axis=1).astype(np.float64)
-        n, away = self.n.take(met, axis=1), o - self.corners[0].take(met, axis=1)
+        o, d = gather(rays.o, lane).astype(np.float64), gather(rays.d, lane).astype(np.float64)
+        n, away = gather(self.n, met), o - gather(self.corners[0], met)
         height, cos = dot(n, away), dot(n, d)
         cos = np.where(cos == 0.0, np.finfo(cos.dtype).tiny, cos)
         t, steep = -height / cos, np.abs(cos)
@@ -205,7 +206,7 @@ def _same_plane(n, c):
     """A number (F,) for each plane n . x = c, the same for those that differ by rounding only."""
     digits = np.vstack((n, c / np.maximum(np.abs(c).max(), np.finfo(c.dtype).tiny))).round(12)
     order = np.lexsort(digits)
-    other = np.diff(digits.take(order, axis=1), axis=1) != 0.0
+    other = np.diff(gather(digits, order), axis=1) != 0.0
     number = np.zeros(c.size, np.intp)
     number[order[1:]] = np.cumsum(other.any(axis=0))
     return number
@@ -242,7 +243,7 @@ def sheared_onto_axis(o, d):
     sheared = np.empty((5, axis.size), o.dtype)
     for k in range(3):
         lanes = np.flatnonzero(axis == k)
-        (ox, oy, oz), (dx, dy, dz) = ([v[(k + j) % 3].take(lanes) for j in (1, 2, 3)] for v in (o, d))
+        (ox, oy, oz), (dx, dy, dz) = ([gather(v[(k + j) % 3], lanes) for j in (1, 2, 3)] for v in (o, d))
         sheared[:, lanes] = ox, oy, oz, dx / dz, dy / dz
     return sheared, axis
 

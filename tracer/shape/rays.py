@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.frame import dot
+from tracer.lanes import gather, signed
 
 
 class Rays(NamedTuple):
@@ -26,9 +27,9 @@ class Rays(NamedTuple):
         """The rays of some lanes, which start afresh on what they touch."""
         target = None if self.target is None else self.target[lanes]
         return Rays(
-            self.o.take(lanes, axis=1),
-            self.d.take(lanes, axis=1),
-            self.inv_d.take(lanes, axis=1),
+            gather(self.o, lanes),
+            gather(self.d, lanes),
+            gather(self.inv_d, lanes),
             self.source[lanes],
             target,
             touched,
@@ -69,4 +70,4 @@ def error_bound(p, n, reach):
 
 def leave(p, n, bound, w):
     """The point p moved off its surface by its error bound, to the side that w points to, (3, N)."""
-    return p + n * np.copysign(bound, dot(n, w))
+    return p + n * signed(bound, dot(n, w))

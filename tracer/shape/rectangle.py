@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.shape import start, transform
 from tracer.shape.chart import Chart
 from tracer.shape.rays import hits_only, linear
@@ -131,12 +132,12 @@ class RectangleKernel:
         """Put right the distances of the rays `met`, which start near the plane on another primitive; say
         which of `lanes` may touch the rectangle."""
         if met.size:
-            o, cos = rays.o.take(met, axis=1), linear(self.n, rays.d.take(met, axis=1))
+            o, cos = gather(rays.o, met), linear(self.n, gather(rays.d, met))
             height, source = -depth[met], rays.source[met]
             t[met] = start.distance(-height / cos, height, cos, o, self.first, source, self.others)
         lanes = lanes[rays.source[lanes] >= 0]
         if rays.touched is not None and lanes.size:
-            o = rays.o.take(lanes, axis=1)
+            o = gather(rays.o, lanes)
             on = np.ones(lanes.shape, bool)
             for row, middle, limit in zip(self.rows, self.middles, self.touching, strict=True):
                 on &= np.abs(linear(row, o) - middle) <= limit

@@ -11,6 +11,7 @@ Between two points inside no wall ever blocks.
 
 import numpy as np
 
+from tracer.lanes import gather
 from tracer.shape.rectangle import Rectangle
 
 _SLACK = 1e-9  # of the box's size: edges that differ by less are the same edge
@@ -131,7 +132,7 @@ class RoomKernel:
         primitive = np.full(t.shape, -1, np.int32)
         for wall in self._walls:
             t_wall, _ = wall.closest(rays)
-            np.copyto(primitive, wall.first, where=t_wall < t)
+            primitive[np.flatnonzero(t_wall < t)] = wall.first
             t = np.fmin(t, t_wall)
         return t, primitive
 
@@ -144,12 +145,12 @@ class RoomKernel:
         t, primitive = self._exit(rays, far)
         own = np.flatnonzero(primitive == rays.source)
         if own.size:
-            t[own], primitive[own] = self._from_own_plane(rays.take(own), np.stack(far).take(own, axis=1))
+            t[own], primitive[own] = self._from_own_plane(rays.take(own), gather(np.stack(far), own))
         if self._open or rays.target is not None:
             out = primitive < 0
             if rays.target is not None:
                 out |= primitive == rays.target
-            np.copyto(t, np.inf, where=out)
+            t[np.flatnonzero(out)] = np.inf
         return t, primitive
 
     def _from_own_plane(self, rays, far):
@@ -169,4 +170,4 @@ class RoomKernel:
         ahead = [inverse > 0.0 for inverse in rays.inv_d]
         upper = (ahead[2] & z) | (ahead[1] & y) | (ahead[0] & ~(y | z))
         side = upper.view(np.int8) + (y.view(np.int8) + 2 * z.view(np.int8)) * np.int8(2)
-        return np.maximum(np.minimum(xy, far[2]), 0.0), self._number.take(side)
+        return np.maximum(np.minimum(xy, far[2]), 0.0), gather(self._number, side)

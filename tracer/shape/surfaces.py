@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from tracer.frame import dot, length, put
+from tracer.frame import dot, length
+from tracer.lanes import gather, put
 from tracer.shape.rays import error_bound
 from tracer.shape.sphere import Sphere
 
@@ -32,14 +33,14 @@ class Surfaces:
 
     def project(self, p, primitive):
         """Points (3, N) put onto their primitives (N,), the normals there, and the bound on what is left."""
-        n, c = self._n.take(primitive, axis=1), self._c.take(primitive)
+        n, c = gather(self._n, primitive), gather(self._c, primitive)
         p = p - (dot(n, p) - c) * n
         for first, shape in self._meshes:
             lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            put(p, lanes, shape.put_inside(p.take(lanes, axis=1), primitive[lanes] - first))
+            put(p, lanes, shape.put_inside(gather(p, lanes), primitive[lanes] - first))
         for first, center, radius, side in self._spheres:
             lanes = np.flatnonzero(primitive == first)
-            out = p.take(lanes, axis=1) - center
+            out = gather(p, lanes) - center
             out = out / length(out)
             put(p, lanes, center + radius * out)
             put(n, lanes, side * out)
@@ -47,7 +48,7 @@ class Surfaces:
 
     def bound(self, p, n, primitive):
         """How far points (3, N) may lie off their primitives, along normals n (3, N), in metres, (N,)."""
-        return error_bound(p, n, self._reach.take(primitive))
+        return error_bound(p, n, gather(self._reach, primitive))
 
     def shading_normals(self, p, ng, wo, primitive):
         """Interpolated normals where a shape has them; ng where they are none or would turn the side seen."""
@@ -56,10 +57,8 @@ class Surfaces:
         n = ng.copy()
         for first, shape in self._smooth:
             lanes = np.flatnonzero((primitive >= first) & (primitive < first + shape.primitives))
-            smooth = shape.shading_normals(p.take(lanes, axis=1), primitive[lanes] - first)
-            seen = wo.take(lanes, axis=1)
-            good = np.flatnonzero(
-                dot(smooth, seen) * dot(ng.take(lanes, axis=1), seen) > 0.0
-            )  # not so for NaN
-            put(n, lanes[good], smooth.take(good, axis=1))
+            smooth = shape.shading_normals(gather(p, lanes), primitive[lanes] - first)
+            seen = gather(wo, lanes)
+            good = np.flatnonzero(dot(smooth, seen) * dot(gather(ng, lanes), seen) > 0.0)  # not so for NaN
+            put(n, lanes[good], gather(smooth, good))
         return n
