@@ -1,5 +1,7 @@
 """castray's samplers beside others, how fast their errors fall, and what a sample of a lamp is worth."""
 
+from unittest.mock import patch
+
 import lamps
 import numpy as np
 import samplers
@@ -7,6 +9,7 @@ import samplers
 import tracer
 from benchmarks import scenes
 from benchmarks.section import SEED, settings, short, table
+from tracer.engine import plan
 
 RARE = {("touching", "bsdf", "area")}  # a bounce in 2000 misses the lamp: eight times the samples
 
@@ -57,3 +60,36 @@ def rectangles(size, say):
             }
         )
     return table(rows)
+
+
+def sharing(size, say):
+    """Errors of adaptive pictures over those of even ones, by the power that shares samples out."""
+    rows = []
+    for scene in map(tracer.load, ("cornell_unit", "cornell_glass")):
+        for sampler in ("lattice", "independent"):
+            even = _errors(size, scene, sampler, "off")
+            for goal in plan.GOALS[1:]:
+                found = {}
+                for name, power in (("1/2", 0.5), ("1/3", 1.0 / 3.0), ("1/4", 0.25), ("1/5", 0.2)):
+                    say(f"{scene.name}: {sampler}, {goal}, {name}")
+                    with patch.object(plan, "POWER", power):
+                        ratios = _errors(size, scene, sampler, goal) / even
+                    found[f"power {name}"] = " / ".join(f"{ratio:.2f}" for ratio in ratios)
+                rows.append({"scene": scene.name, "sampler": sampler, "goal": goal, **found})
+    return table(rows)
+
+
+def _errors(size, scene, sampler, goal):
+    """MSE and relMSE (2,) of pictures, as the scatter between seeds."""
+    side = size.side * 3 // 8
+    pictures = [
+        tracer.render(
+            scene,
+            settings(size, width=side, height=side, spp=size.sharing_spp, sampler=sampler, seed=SEED + k),
+            adaptive=goal,
+        ).rgb
+        for k in range(size.error_seeds)
+    ]
+    variance = np.var(pictures, axis=0, ddof=1, dtype=np.float64)
+    mean = np.mean(pictures, axis=0, dtype=np.float64)
+    return np.array([variance.mean(), (variance / (mean * mean + plan.DARK)).mean()])

@@ -34,6 +34,7 @@ class Size:
     whole_repeats: int = 5
     error_spps: tuple = (16, 32, 64, 128, 256, 512)
     error_seeds: int = 8
+    sharing_spp: int = 64
     lamp_spp: int = 1 << 20
     picks: int = 25  # pixels
     steps: int = 100
@@ -43,7 +44,7 @@ FULL = Size()
 TINY = Size(
     side=8, spp=2, repeats=1, moments=5, lanes=(64, 128), spps=(1, 2), depths=(1, 2), levels=(0, 1), brute=1,
     brute_rays=16, mesh_spp=1, mesh_repeats=1, lamps=(1, 2), starts=1, wholes=(("furnace", 4, 1),),
-    whole_repeats=1, error_spps=(1, 4), error_seeds=2, lamp_spp=256, picks=1, steps=2,
+    whole_repeats=1, error_spps=(1, 4), error_seeds=2, sharing_spp=32, lamp_spp=256, picks=1, steps=2,
 )  # fmt: skip
 
 

@@ -7,8 +7,8 @@ the white ones is measured on black ones only, and the other way round:
 
 - `until_error`: a tile's white pixels get samples until the spread of its black ones, over the number of
   samples of the white ones, says that their error is small enough.
-- `adaptive`: a first pass of one block measures; in a second a pixel gets samples in proportion to the spread
-  of its four neighbours.
+- `adaptive`: a first pass of one block measures; in a second a pixel gets samples in proportion to a power of
+  the variance of its four neighbours.
 
 Given its number of samples a pixel is the mean of its first samples like any other: unbiased, with a right
 error bar; and `inspect` with that number of samples gives it again bit for bit.
@@ -27,6 +27,9 @@ TILE = 16  # pixels
 DARK = 0.01  # added to mean^2: keeps black pixels from deciding
 STILL = 1e-5  # relative deviation of samples that is rounding, not noise
 MOST_BLOCKS = 64  # of a pixel between two looks
+# Samples go with this power of the variance. 1/2 would be best if it were known and samples independent: but
+# one block of neighbours tells it roughly, and in rare bright samples wrongly (BENCHMARKS.md, `sharing`).
+POWER = 0.25
 GOALS = ("off", "mse", "relmse")  # what `adaptive` makes small
 
 
@@ -86,7 +89,7 @@ def _adaptive(settings, sheet, goal):
     yield _rows(pixels, np.ones(pixels.size, np.int64), 0)
     variance = sheet.sample_variance()
     square = variance.mean(axis=0) if goal == "mse" else relative_spread(sheet, variance)
-    wanted = np.sqrt(_beside(np.nan_to_num(square), width, height))
+    wanted = _beside(np.nan_to_num(square), width, height) ** POWER
     more = np.zeros(pixels.size, np.int64)
     for colour in (0, 1):
         mine = np.flatnonzero(_halves(width, height) % 2 == colour)
