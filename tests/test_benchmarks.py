@@ -25,8 +25,8 @@ import tracer
 from tracer.engine import waves
 from tracer.shape.rays import Rays
 
-DEAR = ("engines", "start", "whole", "pick", "recorder", "samplers", "triangles")
-TIMELESS = ("slopes", "rectangles")
+DEAR = ("engines", "start", "whole", "pick", "recorder", "samplers", "sharing", "triangles")
+TIMELESS = ("slopes", "sharing", "rectangles")
 TRUTH = np.linspace(0.1, 1.0, 16 * 16 * 3).reshape(16, 16, 3)
 
 
