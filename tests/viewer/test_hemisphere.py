@@ -7,9 +7,11 @@ import tracer
 from lessons import zoo
 from lessons.zoo import planted
 from viewer import hemisphere
+from viewer.company import over_vertex
 from viewer.cursor import Cursor
 from viewer.hemisphere import Hemisphere
 from viewer.numerals import LUMINANCE
+from viewer.session import Session
 from viewer.stage import Stage
 from viewer.surfaces import COLOURS
 from viewer.understanding import lens
@@ -175,3 +177,13 @@ def test_the_grid_is_asked_once_however_sharp_the_lobe_is(monkeypatch):
     monkeypatch.setattr(Vertex, "asked", counted)
     lobes(seen.vertex)
     assert sum(asked) < 8000
+
+
+def test_nothing_is_worked_out_where_it_is_not_asked_for(monkeypatch):
+    session = Session(tracer.load("cornell_unit"), tracer.Settings(width=24, height=24, spp=2), None)
+    session.stand((12, 20, 0, 1))
+    monkeypatch.setattr(lens, "over", None)  # whoever asks for it fails
+    assert over_vertex(session, SIZE, Speaker("en")) is None
+    session.shelf[lens.SHOWN] = True
+    with pytest.raises(TypeError):
+        over_vertex(session, SIZE, Speaker("en"))
