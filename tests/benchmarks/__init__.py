@@ -79,8 +79,9 @@ BENCH = (
     Section(
         "engines",
         "Two engines",
-        "128 x 128, 16 spp, depth 8. Seconds are of tracing alone; how long the shader takes to be ready\n"
-        "stands beside them. Paths are the same if their first five vertices are (`tests/same_paths.py`).",
+        "128 x 128, 16 spp, depth 8. Seconds are of tracing alone, with children that are up; how long the\n"
+        "shader takes to be ready stands beside them. Paths are the same if their first five vertices are\n"
+        "(`tests/same_paths.py`).",
         engines.measure,
     ),
     Section(
