@@ -11,7 +11,7 @@ import numpy as np
 
 from tracer import warp
 from tracer.frame import dot
-from tracer.lanes import gather, put
+from tracer.lanes import choose, gather, put
 from tracer.light import rectangle, sphere
 from tracer.light.sample import AREA, CONE, SOLID_ANGLE, LightSample
 
@@ -88,7 +88,7 @@ class AreaLights:
         if self._only == AREA:
             density = self._per_angle(density, square, -dot(nq, wi))
         elif (by_area := technique == AREA).any():
-            density = np.where(by_area, self._per_angle(density, square, -dot(nq, wi)), density)
+            density = choose(by_area, self._per_angle(density, square, -dot(nq, wi)), density)
         if self.count == 1:  # one face is broadcast instead of repeated
             light, primitive, pick, chance, radiance = (
                 self._light, self._primitive, self._pick, self._chance, self.radiance,
@@ -180,9 +180,9 @@ class AreaLights:
         s, t = rectangle.uniform(seen, omega, u[0], u[1])
         technique, density = SOLID_ANGLE, 1.0 / omega
         if not usable.all():
-            s, t = np.where(usable, s, u[0]), np.where(usable, t, u[1])
-            density = np.where(usable, density, self._pdf_area[face])
-            technique = np.where(usable, SOLID_ANGLE, AREA)
+            s, t = choose(usable, s, u[0]), choose(usable, t, u[1])
+            density = choose(usable, density, self._pdf_area[face])
+            technique = np.array((AREA, SOLID_ANGLE)).take(usable.view(np.int8))
         q = self._corner[:, face] + s * self._e1[:, face] + t * self._e2[:, face]
         return np.broadcast_to(technique, omega.shape), q, self._n[:, face], density
 
@@ -208,7 +208,7 @@ class AreaLights:
     def _solid_angle(self, p, face):
         """Solid angle (N,) of rectangles that are sampled by it, 0 of the others."""
         omega = rectangle.solid_angle(self._seen(p, face))
-        return np.where(omega > self._least, omega, 0.0)
+        return choose(omega > self._least, omega, np.zeros(1, omega.dtype))
 
     def _cone(self, p, face):
         """Solid angle (N,) of spheres that are sampled by their cone, 0 of the others."""

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.frame import dot
+from tracer.lanes import choose
 
 # Below these solid angles points of a rectangle look alike from the receiver: sampling by area is as good,
 # and the map above has lost more than a ten-thousandth of the rectangle's side.
@@ -106,7 +107,7 @@ def _across(r, omega, u):
     strip = _Strip(r)
     right = strip.beyond(r.x1) + (1.0 - u) * omega
     positive = right <= strip.whole
-    gamma = np.where(positive, right, strip.beyond(-r.x0) + u * omega)
+    gamma = choose(positive, right, strip.beyond(-r.x0) + u * omega)
     sin, cos = np.sin(0.5 * gamma), np.cos(0.5 * gamma)
     # All sines and cosines of D, a0 and a1 are multiplied by |a||b|, which cancels.
     side, level = strip.side, strip.level
@@ -114,7 +115,7 @@ def _across(r, omega, u):
     second = (side * cos - level * sin) * sin
     third = (r.z * cos + r.y1 * sin) * (r.z * cos - r.y0 * sin)
     x = 0.5 * r.z * first / np.sqrt(second * third)
-    return np.where(positive, x, -x)
+    return choose(positive, x, -x)
 
 
 class _Strip:
@@ -134,4 +135,4 @@ class _Strip:
         product, inner = a * b, square + self.level
         # |a||b| + a.b: where the two are opposite, |a x b|^2 / (|a||b| - a.b) has the digits.
         cross = self.square_height * (square + self.zz) / (product + np.abs(inner))
-        return 2.0 * np.arctan2(self.side, np.where(inner < 0.0, cross, product + inner) + x * (a + b))
+        return 2.0 * np.arctan2(self.side, choose(inner < 0.0, cross, product + inner) + x * (a + b))
