@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracer.frame import dot
+from tracer.lanes import choose, gather, signed
 from tracer.settings import TracerError
 from tracer.shape.chart import Chart
 from tracer.shape.rays import linear
@@ -121,16 +122,21 @@ class SphereKernel:
         b = dot(oc, rays.d)
         foot = oc - b * rays.d
         disc = self.radius * self.radius - dot(foot, foot)
-        root = np.sqrt(np.maximum(disc, 0.0))
-        far_from_zero = -(b + np.copysign(root, b))
-        size = np.sqrt(dot(oc, oc))
-        product = (size - self.radius) * (size + self.radius)
-        near_zero = product / far_from_zero
-        near, far = np.minimum(near_zero, far_from_zero), np.maximum(near_zero, far_from_zero)
-        t = np.where(near > 0.0, near, far)
-        t[~((disc >= 0.0) & (t > 0.0))] = np.inf
-        own = rays.source == self.first
-        t[own] = np.where(b < 0.0, -2.0 * b, np.inf)[own]
+        t, own = np.full_like(b, np.inf), rays.source == self.first
+        lanes = np.flatnonzero((disc >= 0.0) & ~own)
+        t[lanes] = self._ahead(gather(oc, lanes), gather(b, lanes), gather(disc, lanes))
+        own = np.flatnonzero(own & (b < 0.0))
+        t[own] = -2.0 * gather(b, own)
         if rays.target is not None:
-            t[rays.target == self.first] = np.inf
+            t[np.flatnonzero(rays.target == self.first)] = np.inf
         return t, self.first
+
+    def _ahead(self, oc, b, disc):
+        """Distance (N,) to the first root above 0 of rays that meet the sphere, inf if there is none."""
+        far_from_zero = -(b + signed(np.sqrt(disc), b))
+        size = np.sqrt(dot(oc, oc))
+        near_zero = (size - self.radius) * (size + self.radius) / far_from_zero
+        near, far = np.minimum(near_zero, far_from_zero), np.maximum(near_zero, far_from_zero)
+        t = choose(near > 0.0, near, far)
+        t[np.flatnonzero(~(t > 0.0))] = np.inf
+        return t
