@@ -64,7 +64,7 @@ def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
 
 
 @pytest.mark.parametrize("precision", slow_but((32, 64), 32))
-@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("integrator", slow_but(INTEGRATORS, "path"))
 @pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_neither_wave_nor_order_changes_a_path(suite_seed, scene, integrator, precision):
     settings = square(spp=3, integrator=integrator, precision=precision, seed=suite_seed)
@@ -119,7 +119,7 @@ def _noted(traced, started, job, tasks, workers):
     return traced(job, tasks, workers)
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", slow_but(SCENES, "cornell_glass"))
 def test_a_sample_does_not_depend_on_how_many_there_are(suite_seed, scene):
     few, many = square(spp=5, seed=suite_seed), square(spp=40, seed=suite_seed)
     for x, y in ((3, 4), (8, 8), (15, 0)):

@@ -9,6 +9,7 @@ import doctor_table
 import false_alarms
 import numpy as np
 import pytest
+from cases import slow_but
 from mutants import MUTANTS, changed, traced, with_column
 from suite import suite_seed
 
@@ -101,7 +102,7 @@ def test_the_three_mistakes_of_castray_are_told_apart_in_any_combination(bugs):
     assert set(examine(zoo_trace(*bugs, spp=8)).bugs) == set(bugs)
 
 
-@pytest.mark.parametrize("bug", ["D10", "R01"])
+@pytest.mark.parametrize("bug", slow_but(("D10", "R01"), "R01"))
 def test_a_trace_judged_in_parts_is_judged_as_a_whole(bug, monkeypatch):
     trace = zoo_trace(bug)
     whole = examine(trace)

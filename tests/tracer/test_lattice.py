@@ -157,6 +157,7 @@ def test_numbers_are_uniform_and_neighbours_independent(suite_seed, varied, use)
 
 
 @pytest.mark.statistical
+@pytest.mark.slow
 def test_uses_and_depths_are_independent_over_pixels(suite_seed):
     """Two by two, and the squares of light and bounce at one vertex and the next four by four."""
     pixel = pack_pixel(np.arange(1 << 14) % 128, np.arange(1 << 14) // 128)

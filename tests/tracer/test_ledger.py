@@ -79,7 +79,7 @@ def test_many_pixels_are_the_sums_of_their_events(suite_seed, scene, integrator,
     adds_up(loaded(scene), settings, some_pixels(pixels, suite_seed))
 
 
-@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "coloured_glass"))
 def test_a_pixel_is_the_sum_of_its_events(suite_seed, scene, integrator, precision):
@@ -111,7 +111,7 @@ def sometimes_nan(beta, f, cos, light, w):
 def test_a_sample_that_is_not_finite_counts_as_nothing_and_is_reported(suite_seed):
     settings = square(5, integrator="direct", seed=suite_seed, max_depth=4)
     scene, steps = loaded("cornell_unit"), zoo.changed(light_term=sometimes_nan)
-    pixels = some_pixels(20, suite_seed)
+    pixels = some_pixels(8, suite_seed)
     picture = adds_up(scene, settings, pixels, steps)
     ends = [p.end for x, y in pixels for p in tracer.inspect(scene, settings, x, y, steps=steps).paths]
     assert 0 < ends.count("invalid") < len(ends)

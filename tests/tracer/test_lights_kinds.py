@@ -51,7 +51,9 @@ def settings(seed, spp=256, **options):
 
 @pytest.mark.statistical
 @both
-@pytest.mark.parametrize("names", [*((name,) for name in LIGHTS), MANY], ids="-".join)
+@pytest.mark.parametrize(
+    "names", [*((name,) for name in LIGHTS), pytest.param(MANY, marks=pytest.mark.slow)], ids="-".join
+)
 def test_s56_every_loop_finds_the_same_light(suite_seed, tmp_path, names, precision):
     scene = stage(tmp_path, *names)
     unmet = "point" in names or "directional" in names

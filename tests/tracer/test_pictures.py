@@ -129,6 +129,7 @@ def test_a_picture_of_another_shape_is_compared_by_its_middle_or_as_stretched():
     assert opinion(values.repeat(2, axis=1)).reading.shape == "stretched"
 
 
+@pytest.mark.slow
 def test_pixels_that_are_no_numbers_and_rows_that_nobody_drew_are_hypotheses():
     holes, band = picture().copy(), picture().copy()
     holes[10, 10], band[38:] = np.nan, 0.0

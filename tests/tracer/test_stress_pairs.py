@@ -114,7 +114,7 @@ def test_s56_light_samples_twice_too_bright_are_caught(suite_seed, folder, light
 
 @pytest.mark.statistical
 @both
-@pytest.mark.parametrize("kind", DISTRIBUTIONS)
+@pytest.mark.parametrize("kind", slow_but(DISTRIBUTIONS, "ggx"))
 @pytest.mark.parametrize("name", slow_but(("metal", "glass"), "glass"))
 def test_s37_the_picture_of_the_smoothest_rough_surface_is_the_mirrors(
     suite_seed, folder, name, kind, precision

@@ -35,6 +35,7 @@ def row(tmp_path, name, content, seconds=30.0):
     return row_of(path, name, "cornell", FEW, seconds)
 
 
+@pytest.mark.slow
 def test_a_right_tracer_passes_in_all_its_parts(tmp_path):
     found = row(tmp_path, "李雷 (1).py", text())
     assert (found.state, found.failed) == (RIGHT, ()) and {"light", "bounce", "hit"} <= {*found.passed}
@@ -51,7 +52,11 @@ def test_a_wrong_one_is_named_with_the_part_that_fails_and_the_command_that_prov
     [
         ("def cast_ray(scene:\n", "mine.py:1: "),
         pytest.param("import os\nos._exit(7)\n", "ended with code 7", marks=pytest.mark.slow),
-        ("raise ValueError('<script>')\n", "mine.py:1: in <module>: ValueError"),
+        pytest.param(
+            "raise ValueError('<script>')\n",
+            "mine.py:1: in <module>: ValueError",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_what_fails_is_a_row_that_says_why(tmp_path, content, said):
