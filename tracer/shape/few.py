@@ -130,7 +130,9 @@ class FewKernel:
 
     def _numbers(self, t, lanes, of_triangle, again, exact, asked):
         """The triangles that the rays `asked` meet at t."""
-        place = np.searchsorted(lanes, asked)
+        place = np.empty(t.size, np.intp)
+        place[lanes] = np.arange(lanes.size)
+        place = gather(place, asked)
         t, number = gather(t, asked), np.zeros(asked.size, np.int32)
         for triangle, met in of_triangle[::-1]:
             number[gather(met, place) == t] = triangle

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from tracer.frame import dot, normalize
+from tracer.lanes import gather
 from tracer.settings import TracerError
 from tracer.shape import inside
 from tracer.shape.chart import Chart
@@ -95,9 +96,22 @@ class Mesh:
         """Its texture coordinates; without any, those of `barycentric`."""
         return Chart.spanned(*self.corners(), None if self.uv is None else self.uv.transpose(1, 2, 0))
 
+    def _corners(self, face, dtype):
+        """The corners of triangles (N,), three (3, N)."""
+        if dtype not in self._all_corners:
+            self._all_corners[dtype] = [
+                np.ascontiguousarray(self.vertices[self.faces[:, k]].T, dtype) for k in range(3)
+            ]
+        return [gather(corner, face) for corner in self._all_corners[dtype]]
+
+    @cached_property
+    def _all_corners(self):
+        """What was asked for: {precision: the corners of all triangles, three (3, F)}."""
+        return {}
+
     def barycentric(self, p, face):
         """Coordinates of the second and third vertex, (2, N)."""
-        a, b, c = (self.vertices[self.faces[face, k]].T.astype(p.dtype) for k in range(3))
+        a, b, c = self._corners(face, p.dtype)
         e1, e2, q = b - a, c - a, p - a
         d11, d12, d22, q1, q2 = dot(e1, e1), dot(e1, e2), dot(e2, e2), dot(q, e1), dot(q, e2)
         det = d11 * d22 - d12 * d12
@@ -111,8 +125,8 @@ class Mesh:
         v, w = self.barycentric(p, face)
         outside = np.flatnonzero(~((v >= 0.0) & (w >= 0.0) & (v + w <= 1.0)))  # slivers have no v and w
         if outside.size:
-            q, best = p.take(outside, axis=1), np.inf
-            corners = [self.vertices[self.faces[face[outside], k]].T.astype(p.dtype) for k in range(3)]
+            q, best = gather(p, outside), np.inf
+            corners = self._corners(face[outside], p.dtype)
             for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
                 side, out = b - a, q - a
                 size = dot(side, side)
