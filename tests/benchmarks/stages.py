@@ -12,9 +12,10 @@ REST = "everything else"
 WHY = """Why the rest cannot be skipped in `cornell_unit`:
 
 - *intersect, shadow rays*: walls that bound a convex room are met as one box, of which a ray from inside
-  needs the exit only; walls and lamp never block, so a shadow ray asks the two boxes alone, and only
-  where light could arrive. What is left is a slab test in each rotated box, twice a vertex, which is as
-  little as decides it: a tree over two boxes would test their bounds first, which is the same work.
+  needs the exit only; walls and lamp never block, so a shadow ray asks the two boxes alone, only where
+  light could arrive, and each from where its shadow may fall (a sixth and a third of the vertices). What
+  is left is a slab test in each rotated box, which is as little as decides it: a tree over two boxes
+  would test their bounds first, which is the same work.
 - *light sample*: the solid angle of the lamp, by its four corners, at every vertex. `--light-sampling
   area` has a third of this cost and is as good in this room; beside a lamp it is not (*Rectangular
   lamps*), so it is not the default.
@@ -24,6 +25,7 @@ WHY = """Why the rest cannot be skipped in `cornell_unit`:
   lobes, textures, smooth normals or media nothing asks for them (`castray render cornell_unit
   --explain`).
 - *lanes that leave*: paths that are over are carried along until it pays to move the others together.
+  What is gathered, chosen or given a sign lane by lane is so without a branch (`tracer/lanes.py`).
 - *the loop itself*: events are made of arrays that are there anyway; their cost is Python's, some 10,000
   calls a wave, and falls with the size of waves (*Paths in a wave*)."""
 # A moment belongs to the first of these of which a function is under way, by file and start of its name.
