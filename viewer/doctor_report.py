@@ -94,7 +94,7 @@ def _said(finding, say):
         if value is not None:
             yield name, Text(equation(finding.what, value))
     if finding.explanation:
-        yield "why", Text(finding.explanation)
+        yield "why", Text(say.clue(finding.explanation))
     if finding.p is not None:
         yield "chance", Text(chance(finding, say))
     if finding.first is not None:
@@ -149,7 +149,7 @@ def _print_other(finding, say, console):
     if finding.follows is None:
         console.print(_head(finding, say))
         if finding.explanation:
-            console.print(Text(f"  {finding.explanation}"))
+            console.print(Text(f"  {say.clue(finding.explanation)}"))
         return
     said = say("doctor.follows", cause=finding.follows, **counted(finding, say))
     console.print(Text(f"{finding.rule}  {said}", style="dim"))

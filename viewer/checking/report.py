@@ -52,7 +52,7 @@ def finding(row, say):
         return " + ".join(f"{bug} {bug_title(bug, say)}" for bug in row.found.bugs)
     named = bugs(row.found, say)
     if not named:  # the law itself is in the next column
-        return row.found.explanation or counted(row.found, say)["title"]
+        return say.clue(row.found.explanation) or counted(row.found, say)["title"]
     return f"{named} {bug_title(row.found.bug, say)}"
 
 
@@ -166,7 +166,7 @@ def _detail(found, say):
         for name in ("recorded", "right"):
             value = getattr(found, name)
             rows += [(say(f"doctor.{name}"), equation(found.what, value))] if value is not None else []
-        rows += [(say("doctor.why"), found.explanation)] if found.explanation else []
+        rows += [(say("doctor.why"), say.clue(found.explanation))] if found.explanation else []
         rows += [(say("doctor.first"), place(found.first, say))] if found.first else []
         rows += [(say("doctor.lesson"), lesson(found))] if found.lesson is not None else []
     body = "".join(

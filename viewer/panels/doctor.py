@@ -104,7 +104,7 @@ def _cause(index, finding, chart, say):
         "recorded": equation(finding.what, finding.recorded) if both else "",
         "right": equation(finding.what, finding.right) if both else "",
         "exact": {"recorded": finding.recorded, "right": finding.right},
-        "why": finding.explanation,
+        "why": say.clue(finding.explanation),
         "code": [say("doctor.code_of", bug=bug, code=code) for bug, code in wrong_code(finding, say)],
         "chance": "" if finding.p is None else chance(finding, say),
         "place": place(first, say) if first else "",

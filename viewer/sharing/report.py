@@ -59,7 +59,7 @@ def _cause(finding, say):
         for key, value in (("recorded", finding.recorded), ("right", finding.right))
         if value is not None
     ]
-    rows += [("why", finding.explanation)]
+    rows += [("why", say.clue(finding.explanation))]
     rows += [("chance", chance(finding, say))] if finding.p is not None else []
     rows += [("first", place(finding.first, say))] if finding.first else []
     rows += [("see", finding.command)]

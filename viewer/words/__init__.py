@@ -90,6 +90,18 @@ class Speaker:
         """What the doctor lacks to judge a law, in this language."""
         return self._translated(missing, "lacking.")
 
+    def clue(self, explanation):
+        """What the doctor says a broken law looks like, in this language, piece by piece."""
+        if self.language == "en":
+            return explanation
+        joins = {": ": self.words["clue.why"], "; ": self.words["clue.and"]}
+        parts = re.split(r"(; |(?<! ): )", explanation)
+        return "".join(joins[part] if part in joins else self._piece(part) for part in parts)
+
+    def _piece(self, part):
+        said = self._translated(part, "clue.")
+        return re.sub(r"\bright\b", self.words["clue.right"], said) if part.startswith("recorded") else said
+
     def _translated(self, message, prefix):
         if self.language != "en":
             for key, pattern in _patterns(prefix):
