@@ -3,6 +3,8 @@
 import pytest
 from viewers import SMALL, SWITCHES, Server
 
+PATIENCE = 120_000  # milliseconds, of every wait: on a busy machine what takes one second took forty
+
 
 @pytest.fixture(scope="module")
 def serve():
@@ -69,6 +71,7 @@ def tab(browser):
 def listened(context):
     """A new page; console errors go to `page.errors`, the addresses that it asks for to `page.asked`."""
     page = context.new_page()
+    page.set_default_timeout(PATIENCE)
     page.errors, page.asked = [], []
     page.on("console", lambda m: page.errors.append(m.text) if m.type == "error" else None)
     page.on("pageerror", lambda e: page.errors.append(str(e)))

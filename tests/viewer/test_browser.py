@@ -46,7 +46,6 @@ def stands_at(page, **place):
           return Object.entries(place).every(([k, v]) => here[k] === v);
         }""",
         arg=place,
-        timeout=10_000,
     )
     cursor = truth(page)["cursor"]
     assert {k: cursor[k] for k in place} == place
@@ -251,7 +250,7 @@ def test_the_equation_has_numbers_and_the_result(page):
 
 
 def test_hovering_shows_the_linear_value(page):
-    page.get_by_test_id("progress").wait_for(state="detached", timeout=30_000)
+    page.get_by_test_id("progress").wait_for(state="detached")
     fill(page, 20, 40)
     value = truth(page)["record"]["value"]
     box = page.get_by_test_id("picture").bounding_box()

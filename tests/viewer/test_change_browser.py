@@ -65,7 +65,7 @@ def turn(page, call, key, value):
 def shown(page, text):
     """Wait until the link says so, and the picture is complete."""
     linked(page, text)
-    page.get_by_test_id("progress").wait_for(state="detached", timeout=30_000)
+    page.get_by_test_id("progress").wait_for(state="detached")
 
 
 def inspected(page):

@@ -75,15 +75,15 @@ def test_after_the_server_was_started_again_the_page_goes_on_where_it_was(serve,
     page.wait_for_function("() => window.location.hash.includes('x=9&y=21')")
     server.stop()
     lost = page.get_by_test_id("lost")
-    lost.wait_for(timeout=20_000)
+    lost.wait_for()
     assert f"--port {server.port}" in lost.inner_text() and "castray view" in lost.inner_text()
     again = serve("cornell_unit", *SMALL, "--port", str(server.port))
     assert again.key != server.key  # without the new one the page gets nothing
     page.wait_for_timeout(2000)
     assert lost.count() == 1
     visit(again.address)
-    lost.wait_for(state="detached", timeout=20_000)
-    page.wait_for_selector("[data-testid=event-table][data-pixel='9,21']", timeout=20_000)
+    lost.wait_for(state="detached")
+    page.wait_for_selector("[data-testid=event-table][data-pixel='9,21']")
 
 
 @pytest.mark.browser

@@ -35,7 +35,7 @@ def page(serve, tab):
     """One tab with the Compare panel open, the right tracer beside D01."""
     opened = tab(serve("cornell_unit", *map(str, SMALL), "--compare", "D01").address)
     opened.get_by_test_id("tab-compare").click()
-    opened.get_by_test_id("progress").wait_for(state="detached", timeout=60_000)
+    opened.get_by_test_id("progress").wait_for(state="detached")
     return opened
 
 
@@ -53,9 +53,7 @@ def pictures(tmp_path_factory):
 
 def test_the_numbers_are_those_of_castray_diff(page, pictures):
     judged = page.get_by_test_id("compare-numbers")
-    judged.and_(page.locator(f"[data-exact*='{pictures['errors']['rmse']!r}']")).wait_for(
-        state="attached", timeout=60_000
-    )
+    judged.and_(page.locator(f"[data-exact*='{pictures['errors']['rmse']!r}']")).wait_for(state="attached")
     shown = json.loads(judged.get_attribute("data-exact"))
     for key in ("same", "p_value", "errors", "test"):
         assert shown[key] == pytest.approx(pictures[key]) if key == "p_value" else shown[key] == pictures[key]
@@ -134,7 +132,7 @@ def test_the_path_parts_from_its_twin_where_castray_twin_says(page, pictures):
 
 def test_where_the_pictures_paths_part_is_what_castray_twin_says(page):
     page.get_by_test_id("compare-search").click()
-    page.get_by_test_id("compare-causes").wait_for(timeout=60_000)
+    page.get_by_test_id("compare-causes").wait_for()
     twins = said("twin", "cornell_unit", *SMALL, "--bug", "D01", "--json")
     shown = [
         (int(row.get_attribute("data-pairs")), row.get_attribute("data-what"))
@@ -152,7 +150,7 @@ def test_a_link_keeps_what_is_compared_with(page):
     page.evaluate("link => window.trame.trigger('open', [link])", link)
     page.locator("[data-testid=castray][data-link*='x=5'][data-link*='compare=E01']").wait_for()
     assert page.get_by_test_id("rival").input_value() == "E01"
-    page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("compare-verdict").wait_for()
     page.get_by_test_id("share").locator("summary").click()
     assert "compare=E01" in page.get_by_test_id("share-link").input_value()
     page.keyboard.press("Escape")
@@ -161,10 +159,10 @@ def test_a_link_keeps_what_is_compared_with(page):
 def test_another_bug_is_chosen_and_compared(page):
     page.get_by_test_id("rival").select_option("D10")
     page.get_by_test_id("compare-b").wait_for()
-    page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("compare-verdict").wait_for()
     page.evaluate("window.trame.trigger('tune', ['roulette', '5'])")  # which is refused, and nothing is lost
     page.get_by_test_id("close-message").click()
-    page.get_by_test_id("compare-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("compare-verdict").wait_for()
     page.get_by_test_id("rival").select_option("")
     page.get_by_test_id("compare-verdict").wait_for(state="detached")
     page.get_by_test_id("twin-timeline").wait_for(state="detached")

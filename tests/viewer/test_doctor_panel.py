@@ -23,7 +23,7 @@ def examine(page):
     """Open the panel and have the picture examined: two clicks."""
     page.get_by_test_id("tab-doctor").click()
     page.get_by_test_id("doctor-examine").click()
-    page.get_by_test_id("doctor-verdict").wait_for(timeout=60_000)
+    page.get_by_test_id("doctor-verdict").wait_for()
 
 
 def at_event(page, first):

@@ -50,7 +50,7 @@ def ask(page, text):
 def counted(page, **counts):
     """Wait until so many are said to be found."""
     said = "".join(f"[data-{name}='{number}']" for name, number in counts.items())
-    page.locator(f"[data-testid=find-found]{said}").wait_for(timeout=30_000)
+    page.locator(f"[data-testid=find-found]{said}").wait_for()
 
 
 def test_before_anything_is_asked_it_says_what_asking_does(page):

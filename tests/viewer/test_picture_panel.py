@@ -17,7 +17,7 @@ def test_a_compared_picture_gives_hypotheses_in_the_doctors_panel(serve, browser
     page.wait_for_selector("html[data-ready]")
     page.get_by_test_id("tab-doctor").click()
     page.get_by_test_id("doctor-guess").click()
-    page.get_by_test_id("hypothesis-0").wait_for(timeout=60_000)
+    page.get_by_test_id("hypothesis-0").wait_for()
     assert "fits D06" in page.get_by_test_id("hypothesis-0").inner_text()
     assert "no findings" in page.get_by_test_id("doctor-guessed").inner_text()
     assert page.get_by_test_id("finding-0").count() == 0

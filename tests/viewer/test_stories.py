@@ -24,12 +24,12 @@ class Reader:
         link = Link(self.bug.scene, self.settings, (12, 12, 0, 0)).write()
         page.evaluate("link => window.trame.trigger('open', [link])", link)
         page.locator(f"[data-testid=castray][data-link='{link}']").wait_for()
-        page.get_by_test_id("progress").wait_for(state="detached", timeout=60_000)
+        page.get_by_test_id("progress").wait_for(state="detached")
 
     def click(self, name):
         """Click what has a test id, when it is there."""
         self.clicks += 1
-        self.page.get_by_test_id(name).click(timeout=60_000)
+        self.page.get_by_test_id(name).click()
 
     def pick(self, x, y):
         """Click a pixel of the picture."""
@@ -73,7 +73,7 @@ class Reader:
 
     def is_led_to_the_cause(self):
         """Click the first finding: it is the command's, names the mistake, and leads to what proves it."""
-        self.page.get_by_test_id("doctor-verdict").wait_for(timeout=60_000)
+        self.page.get_by_test_id("doctor-verdict").wait_for()
         found = next(f for f in self.command("doctor")["findings"] if f["follows"] is None)
         card, first = self.page.get_by_test_id("finding-0"), found["first"]
         assert found["bug"] in zoo.alike(self.bug.id) and found["bug"] in card.get_attribute("data-bug")
