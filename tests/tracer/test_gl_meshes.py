@@ -78,11 +78,13 @@ def met_alike(scene):
     return (met[0] == met[1]).mean()
 
 
+@pytest.mark.slow
 def test_of_triangles_at_the_same_distance_the_one_of_the_lowest_number_is_met():
     """Not all: the rays are the same but for rounding, so that some pass beside a corner."""
     assert met_alike(sheet(30)) > 0.9
 
 
+@pytest.mark.slow
 def test_another_order_of_equals_is_noticed(monkeypatch):
     shaders.plant(monkeypatch, "primitive < best.primitive", "primitive > best.primitive")
     assert met_alike(sheet(30)) < 0.7

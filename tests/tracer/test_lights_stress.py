@@ -7,6 +7,7 @@ import lamps
 import numpy as np
 import pytest
 import trimesh
+from cases import slow_but
 from stats import mean_and_error
 from truth import entry, keys
 from values.lights import from_rectangle
@@ -197,7 +198,7 @@ def test_s26_without_lamps_all_is_black_and_no_shadow_ray_is_cast(integrator, pr
 
 
 @pytest.mark.statistical
-@both
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 def test_the_densities_of_a_lamp_integrate_to_one(suite_seed, precision):
     """Over all directions: 1 where they meet the lamp. Uniform directions in its own box around it."""
     lamp = lamps.rectangle([0.3, -0.2, 1], [0.5, 0.1, 0], [-0.16, 0.8, 0], towards=[0, 0, 0])

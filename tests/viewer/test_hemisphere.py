@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from cases import slow_but
 
 import tracer
 from lessons import zoo
@@ -47,7 +48,7 @@ def solid_angles(directions, faces):
     return 2.0 * np.arctan2(triple, 1.0 + (a * b).sum(axis=0) + (b * c).sum(axis=0) + (c * a).sum(axis=0))
 
 
-@pytest.mark.parametrize(("scene", "shape"), SEEN)
+@pytest.mark.parametrize(("scene", "shape"), slow_but(SEEN, SEEN[0]))
 def test_every_point_of_a_lobe_is_as_far_away_as_the_tracer_s_eval_and_pdf_say(scene, shape):
     seen = lens_on(scene, shape)
     over, vertex, hit = Hemisphere(seen, SIZE, Speaker("en")), seen.vertex, seen.vertex.hit
@@ -76,7 +77,7 @@ def test_every_point_of_a_lobe_is_as_far_away_as_the_tracer_s_eval_and_pdf_say(s
     assert over.lobes.most == max(max(s.f.max(), s.p.max()) for s in over.lobes.sheets)
 
 
-@pytest.mark.parametrize(("scene", "shape"), SEEN)
+@pytest.mark.parametrize(("scene", "shape"), slow_but(SEEN, SEEN[0]))
 def test_a_lobe_covers_its_side_and_no_peak_falls_between_its_places(scene, shape):
     seen = lens_on(scene, shape)
     found, vertex = lobes(seen.vertex), seen.vertex

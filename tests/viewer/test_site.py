@@ -59,6 +59,7 @@ def test_solutions_are_on_the_pages_only_where_they_are_asked_for():
                 assert f'href="{frame.named("formulas", tag)}#{SMALL:02}-{label}"' in text
 
 
+@pytest.mark.slow
 def test_every_link_of_the_pages_leads_to_a_page_that_is_built():
     known = {"reference.html", "log-format.html"}
     stems = ["index", "formulas", *(f"lesson-{number:02}" for number in lessons())]
