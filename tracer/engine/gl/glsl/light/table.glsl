@@ -15,16 +15,25 @@ int chosen(float u)
     return low;
 }
 
+#if ELSEWHERE
+LightSample elsewhere_sample(Elsewhere light, vec3 p, vec2 u)
+{
+    int kind = light.number.x;
+    return kind == POINT ? point_sample(light, p)
+        : kind == DIRECTIONAL ? directional_sample(light, p) : constant_sample(light, p, u);
+}
+#endif
+
 LightSample sample_light(vec3 p, vec3 u)
 {
     int entry = chosen(u.x);
+#if !FACES
+    return elsewhere_sample(elsewhere_at(entry), p, u.yz);
+#else
 #if ELSEWHERE
-    if (entry >= FACES) {
-        Elsewhere light = elsewhere_at(entry - FACES);
-        int kind = light.number.x;
-        return kind == POINT ? point_sample(light, p)
-            : kind == DIRECTIONAL ? directional_sample(light, p) : constant_sample(light, p, u.yz);
-    }
+    if (entry >= FACES)
+        return elsewhere_sample(elsewhere_at(entry - FACES), p, u.yz);
 #endif
     return area_sample(faces_at(entry), p, u.yz);
+#endif
 }
