@@ -64,6 +64,7 @@
         wanted = false;
         view.renderer.resetCameraClippingRange();
         view.renderWindow.render();
+        view.openglRenderWindow.getContext().flush(); // else it begins only with the page's picture
       }
       // no key does anything in what vtk.js draws into: it is no stop of the focus, and named as what is around it
       function name(drawn) {
