@@ -44,7 +44,7 @@ def all_of(settings):
     return pixel, sample
 
 
-@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_every_event_of_a_path_alone_is_that_of_the_path_in_the_wave(
@@ -130,7 +130,7 @@ def test_a_sample_does_not_depend_on_how_many_there_are(suite_seed, scene):
         assert lone.paths[0].radiance.tobytes() == short[3].radiance.tobytes()
 
 
-@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 @pytest.mark.parametrize("scene", slow_but((*SCENES, "coloured_glass"), "cornell_glass"))
 def test_watching_changes_nothing(suite_seed, scene, integrator, precision):

@@ -50,7 +50,7 @@ def small(suite_seed, spp=64, **options):
     return Settings(width=16, height=16, spp=spp, seed=suite_seed, **options)
 
 
-@pytest.mark.parametrize("precision", [32, 64])
+@pytest.mark.parametrize("precision", slow_but((32, 64), 32))
 @pytest.mark.parametrize("max_depth", DEPTHS)
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_the_furnace_has_its_radiance(suite_seed, integrator, max_depth, precision):
