@@ -12,6 +12,7 @@ from tracer.learner import child, starter
 from tracer.learner.value import Vector, dot, known, named
 from viewer.checking.learner import judged as held
 from viewer.checking.learner import settings_of
+from viewer.options import PathOptions
 
 TEXT = Path(starter.__file__).read_text(encoding="utf-8")
 
@@ -194,3 +195,8 @@ def test_each_law_is_held_once(tmp_path, monkeypatch):
     monkeypatch.setattr(tracer, "examine", counted)
     judged(written(tmp_path, TEXT), width=4, height=4, spp=2)
     assert asked and len(asked) == len(set(asked))
+
+
+def test_samples_that_were_said_are_taken_though_they_are_a_default_elsewhere():
+    plain, said = (settings_of(options).spp for options in (PathOptions(size=(9, 9)), PathOptions(spp=16)))
+    assert (plain, said) == (settings_of(None).spp, 16)
