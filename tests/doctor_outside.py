@@ -18,6 +18,12 @@ BEFORE = (
     "What was mended since was mended with these at hand, so that new ones would say more."
 )
 AT_FIRST = Path(__file__).parent / "outside" / "at_first.json"  # of the second batch, before any mending
+PUT_RIGHT = (
+    "One of the four was R01 for the right program. Before that count the laws that a reader would accept "
+    "were put right for six of them (bounce-cos, directions-beside, absorbed; D03 where all that blocks is "
+    "let through), and two that crashed the program itself were made to end. What was mended since was "
+    "mended with these at hand."
+)
 HEADS = {
     "first": (
         "Mistakes that the laws were not written for: replaced steps of castray's loop, changed lines of a "
@@ -101,7 +107,8 @@ def text(rows):
         fresh = batch == "fresh"
         before = BEFORE
         if fresh:
-            before = f"When they were first tried, {counted([(m, at_first[m.id]) for m, _ in pairs])}."
+            before = "When they were first tried (commit 173aed9), "
+            before += f"{counted([(m, at_first[m.id]) for m, _ in pairs])}. {PUT_RIGHT}"
         column = " at first |" if fresh else ""
         parts.append(
             f"{head.format(commit=commit())} Now {counted(pairs)}. {before}\n\n"
