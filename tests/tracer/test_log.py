@@ -276,7 +276,7 @@ def test_the_page_names_every_field(cornell):
 def test_the_command_checks_a_log(written):
     path = written(OUTER, INNER, INNER | {"hit.p": 1})
     done = castray("log", path, "--scene", "cornell")
-    assert done.returncode == 0 and "1 paths, 2 vertices" in done.stdout, done.stdout
+    assert done.returncode == 0 and "1 path, 2 vertices" in done.stdout, done.stdout
     assert "line 4: hit.p: 1 is not a list of 3 numbers" in done.stdout
     document = json.loads(castray("log", path, "--scene", "cornell", "--json").stdout)
     assert document["mistakes"] == [{"line": 4, "field": "hit.p", "what": "1 is not a list of 3 numbers"}]
