@@ -89,9 +89,9 @@ class Scene:
         return refusal(self.definition, self.dtype)
 
     def _prepare_surfaces(self):
-        self._faces = start.Faces.of(self.shapes, self.dtype)
-        self._surfaces = Surfaces(self.shapes, self.first, self._faces, self.dtype)
-        extent = max(
+        self.faces = start.Faces.of(self.shapes, self.dtype)  # what the definition says of every primitive
+        self._surfaces = Surfaces(self.shapes, self.first, self.faces, self.dtype)
+        self.extent = max(  # the largest coordinate a ray starts at
             np.abs(self.bounds()).max(), np.abs(self.camera.origin).max() + self.camera.aperture_radius
         )
         materials = [self.definition.bsdfs[surface.bsdf] for surface in self.definition.surfaces]
@@ -101,8 +101,8 @@ class Scene:
             [material.one_sided and not material.see_through for material in materials],
             [surface.radiance is not None for surface in self.definition.surfaces],
             bool(self.definition.emitters),
-            extent,
-            self._faces,
+            self.extent,
+            self.faces,
             self.dtype,
             self.accel,
         )
@@ -129,8 +129,8 @@ class Scene:
             for light, k in enumerate(shining):
                 radiance[:, light] = self.definition.surfaces[k].radiance
             self.lights = Lights(faces, radiance, others, ball, self.dtype, self.light_sampling)
-        beside = end.beside(self._faces, self.shape_of, shining)
-        self._meeting = Meeting(self.arrangement, self._faces, beside, self.dtype)
+        beside = end.beside(self.faces, self.shape_of, shining)
+        self._meeting = Meeting(self.arrangement, self.faces, beside, self.dtype)
 
     def intersect(self, o, d, source):
         """Nearest hit of rays from o (3, N) along unit d (3, N), which start on primitive `source` (N,).

@@ -175,7 +175,7 @@ def shadow_rays(scene, rng, n=1000):
     counts = [shape.primitives for shape in scene.shapes]
     shape = rng.choice([0, 2, 3, 4], n)
     face = scene.first[shape] + rng.integers(1 << 16, size=n) % np.take(counts, shape)
-    p = (scene._faces.corners[:, :, face] * rng.dirichlet(np.ones(4), n).T).sum(axis=1).astype(scene.dtype)
+    p = (scene.faces.corners[:, :, face] * rng.dirichlet(np.ones(4), n).T).sum(axis=1).astype(scene.dtype)
     hit = scene.hit(p, -scene._surfaces._n[:, face], np.zeros(n, scene.dtype), face.astype(np.int32))
     return hit, scene.sample_light(hit.p, rng.random((3, n)).astype(scene.dtype))
 

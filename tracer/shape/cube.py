@@ -9,7 +9,7 @@ from tracer.frame import dot
 from tracer.lanes import gather
 from tracer.shape import transform
 from tracer.shape.chart import Chart
-from tracer.shape.rays import hits_only, linear
+from tracer.shape.rays import box_side, hits_only, linear
 
 # Outward local normals: face 2k looks along -axis k, face 2k + 1 along +axis k.
 _NORMALS = np.array([[-1, 1, 0, 0, 0, 0], [0, 0, -1, 1, 0, 0], [0, 0, 0, 0, -1, 1]], np.float64)
@@ -212,10 +212,7 @@ class CubeKernel:
             above.append(p > 0.0)
         z = height[2] > np.maximum(height[0], height[1])
         y = (height[1] > height[0]) & ~z
-        above = (above[2] & z) | (above[1] & y) | (above[0] & ~(y | z))
-        return self.first + (
-            above.view(np.int8) + (y.view(np.int8) + 2 * z.view(np.int8)) * np.int8(2)
-        ).astype(np.int32)
+        return self.first + box_side(y, z, above).astype(np.int32)
 
 
 def _both_ways(local):

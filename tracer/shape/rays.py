@@ -55,6 +55,13 @@ def hits_only(t, hit):
     return np.abs(t) / hit
 
 
+def box_side(y, z, upper):
+    """The side (N,) of a box, 0 to 5 for -x, +x, -y, +y, -z and +z: across y or z where those (N,) are set,
+    else across x, and the upper one where `upper`, three (N,), is set for that axis."""
+    above = (upper[2] & z) | (upper[1] & y) | (upper[0] & ~(y | z))
+    return above.view(np.int8) + (y.view(np.int8) + 2 * z.view(np.int8)) * np.int8(2)
+
+
 def error_bound(p, n, reach):
     """How far, along n, a computed point on a surface may lie from that surface, (N,).
 

@@ -12,6 +12,7 @@ Between two points inside no wall ever blocks.
 import numpy as np
 
 from tracer.lanes import gather
+from tracer.shape.rays import box_side
 from tracer.shape.rectangle import Rectangle
 
 _SLACK = 1e-9  # of the box's size: edges that differ by less are the same edge
@@ -167,7 +168,5 @@ class RoomKernel:
         xy = np.minimum(far[0], far[1])
         z = far[2] < xy
         y = (far[1] < far[0]) & ~z
-        ahead = [inverse > 0.0 for inverse in rays.inv_d]
-        upper = (ahead[2] & z) | (ahead[1] & y) | (ahead[0] & ~(y | z))
-        side = upper.view(np.int8) + (y.view(np.int8) + 2 * z.view(np.int8)) * np.int8(2)
+        side = box_side(y, z, [inverse > 0.0 for inverse in rays.inv_d])
         return np.maximum(np.minimum(xy, far[2]), 0.0), gather(self._number, side)

@@ -50,8 +50,7 @@ def reasons(scene, settings, steps):
 
 def _of_shapes(scene):
     shining = [k for k, surface in enumerate(scene.definition.surfaces) if surface.radiance is not None]
-    faces, _ = tables.faces_of(scene)
-    touching = end.beside(faces, scene.shape_of, shining)
+    touching = end.beside(scene.faces, scene.shape_of, shining)
     if touching is not None:
         lamp = int(touching.many.argmax())
         yield f"{scene.shapes[scene.shape_of[lamp]].name}, a lamp that touches another shape"

@@ -34,7 +34,7 @@ def asked_for_shadows(scene):
     return asked
 
 
-def quads(scene, extent, faces):
+def quads(scene):
     """The rectangles and the faces of cubes, lamps first, as Quads."""
     in_wall = [k for k in scene.arrangement.closest if isinstance(k, InAWall)]
     hair = {kernel.kernel.first: kernel.hair for kernel in in_wall}
@@ -45,16 +45,16 @@ def quads(scene, extent, faces):
         if not isinstance(shape, (Rectangle, Cube)):
             continue
         for number, flat in enumerate(_as_rectangles(shape), int(scene.first[k])):
-            kernels.append((RectangleKernel(flat, number, extent, scene.dtype, faces), asked[k]))
+            kernels.append((RectangleKernel(flat, number, scene.extent, scene.dtype, scene.faces), asked[k]))
     table = rows(len(kernels), ("number",), ("plane", "first", "second", "limits", "more"))
     for row, (kernel, shadows) in zip(table, kernels, strict=True):
         number = kernel.first
         row["number"][:2] = number, shadows
-        row["plane"] = *faces.n[:, number], faces.c[number]
+        row["plane"] = *scene.faces.n[:, number], scene.faces.c[number]
         row["first"], row["second"] = (
             (*along, middle) for along, middle in zip(kernel.rows, kernel.middles, strict=True)
         )
-        row["limits"] = *kernel.limits, kernel.margin, faces.reach[number]
+        row["limits"] = *kernel.limits, kernel.margin, scene.faces.reach[number]
         row["more"][0] = hair.get(number, 0.0)
     return table
 
@@ -123,7 +123,7 @@ def nodes(scene):
     return np.concatenate(padded)
 
 
-def triangles(scene, faces):
+def triangles(scene):
     """Those of meshes, as Triangles in the order of the leaves; their primitives (T,), -1 in empty places."""
     numbers, parts = [np.empty(0, np.intp)], [rows(0, (), ("a", "b", "c", "plane"))]
     for kernel in mesh_kernels(scene):
@@ -133,7 +133,7 @@ def triangles(scene, faces):
             table[corner][:, :3], table[corner][:, 3] = values.T[own], component[own]
         number = np.where(own < 0, -1, kernel.first + own)
         table["plane"][:, 0], table["plane"][:, 1] = kernel.turn, kernel.margin[own]
-        table["plane"][:, 2], table["plane"][:, 3] = faces.reach[kernel.first + own], number
+        table["plane"][:, 2], table["plane"][:, 3] = scene.faces.reach[kernel.first + own], number
         numbers.append(number)
         parts.append(table)
     return np.concatenate(numbers), np.concatenate(parts)

@@ -36,16 +36,15 @@ class Source:
     def __init__(self, scene, settings, stage, watched=0):
         self.scene, self.settings, self.watched = scene, settings, watched
         self._stage = stage
-        self.faces, self.extent = tables.faces_of(scene)
         self.tables, self._accessors = Packed(), []
         self._kinds = [
             material_tables.KINDS[k] for k in np.unique(material_tables.materials(scene)["number"][:, 0])
         ]
         self._elsewhere = tables.elsewhere(scene)
         self._lamps = tables.lamp_faces(scene)
-        self._in_leaves, triangles = shape_tables.triangles(scene, self.faces)
+        self._in_leaves, triangles = shape_tables.triangles(scene)
         self._shapes = Shapes(
-            shape_tables.quads(scene, self.extent, self.faces),
+            shape_tables.quads(scene),
             shape_tables.balls(scene),
             shape_tables.meshes(scene),
             triangles,
@@ -135,7 +134,7 @@ class Source:
 
     def _what_rays_meet(self):
         scene, shapes = self.scene, self._shapes
-        self._table("surfaces", "Surface", tables.surfaces(scene, self.faces, self._in_leaves))
+        self._table("surfaces", "Surface", tables.surfaces(scene, self._in_leaves))
         if shapes.meshes.size:
             self._table("triangles", "Triangle", shapes.triangles)
             for name in ("bvh", "mesh_kernel", "mesh"):
@@ -146,9 +145,9 @@ class Source:
         if scene.has_smooth_normals:
             self._table("smooths", "Smooth", shape_tables.smooth(scene))
         if shapes.related:
-            self._table("relations", "int", shape_tables.relations(self.faces))
+            self._table("relations", "int", shape_tables.relations(self.scene.faces))
         else:
-            self._table("definitions", "Definition", shape_tables.definitions(self.faces))
+            self._table("definitions", "Definition", shape_tables.definitions(self.scene.faces))
         self._table("quads", "Quad", shapes.quads)
         self._table("balls", "Ball", shapes.balls)
         yield from shapes.text()

@@ -11,13 +11,12 @@ from tracer.engine.gl.rows import rows
 from tracer.light.faces import shining_faces
 from tracer.shape.mesh import Mesh
 from tracer.shape.sphere import Sphere
-from tracer.shape.start import Faces
 
 ELSEWHERE = ("Point", "Directional", "Constant")
 KINDS = ("quad", "triangle", "sphere")
 
 
-def surfaces(scene, faces, in_leaves):
+def surfaces(scene, in_leaves):
     """Planes or spheres, and what covers them. in_leaves: (T,) primitives of shape_tables.triangles."""
     table = rows(len(scene.shape_of), ("number",), ("plane", "more", "u", "v"))
     for shape, first in zip(scene.shapes, scene.first, strict=True):
@@ -31,7 +30,7 @@ def surfaces(scene, faces, in_leaves):
         table["number"][own, 0] = KINDS.index("triangle" if isinstance(shape, Mesh) else "quad")
         n, c = shape.planes()
         table["plane"][own, :3], table["plane"][own, 3] = n.T, c
-        table["more"][own, 0] = faces.reach[own]
+        table["more"][own, 0] = scene.faces.reach[own]
         table["u"][own, :3] = shape.chart().tangent.T
     table["number"][:, 1], table["number"][:, 2:] = scene.bsdf_of, -1
     there = np.flatnonzero(in_leaves >= 0)
@@ -104,11 +103,3 @@ def with_ball(table, ball):
     last = rows(1, ("number",), ("where", "colour"))
     last["where"] = *ball.center, ball.radius
     return np.concatenate((table, last))
-
-
-def faces_of(scene):
-    """What the definition says of every primitive, and the largest coordinate a ray starts at."""
-    extent = max(
-        np.abs(scene.bounds()).max(), np.abs(scene.camera.origin).max() + scene.camera.aperture_radius
-    )
-    return Faces.of(scene.shapes, scene.dtype), extent
