@@ -58,7 +58,7 @@ doctor-table: .venv/.dev
 picture-table: .venv/.dev
 	.venv/bin/python tests/picture_table.py
 
-# How often the doctor finds something in right traces. Hours; may be stopped and goes on where it was.
+# How often the doctor finds something in right traces. An hour on two cores; may be stopped and goes on where it was.
 false-alarms: .venv/.dev
 	.venv/bin/python tests/false_alarms.py
 

@@ -287,13 +287,18 @@ def test_the_table_and_the_alarms_are_written_and_gone_on_with(tmp_path, monkeyp
     doctor_paper.keep("table", row)
     assert doctor_paper.kept("table") == {"D10": row}
     doctor_paper.write("table", doctor_table.text({"D10": row, "P07": None}), paper)
-    key, scene, settings = next(false_alarms.plan(["cornell_unit"]))
-    alarm = false_alarms.measured(key, scene, replace(settings, width=8, height=8, spp=4))
-    assert (alarm["single"], alarm["many"], alarm["paths"]) == ([], [], 256)
-    doctor_paper.write("alarms", false_alarms.text([alarm]), paper)
+    tasks = list(false_alarms.plan(["cornell_unit"], 20_000, rounds=1))
+    assert [only is None for *_, only in tasks] == [True] * 6 + [False] * 6
+    alarms = []
+    for key, scene, settings, only in (tasks[0], tasks[6]):
+        alarms.append(false_alarms.measured(key, scene, replace(settings, width=8, height=8, spp=4), only))
+    assert [(alarm["single"], alarm["many"], alarm["paths"]) for alarm in alarms] == [
+        ([], [], 256), ([], None, 256)
+    ]  # fmt: skip
+    doctor_paper.write("alarms", false_alarms.text(alarms), paper)
     text = paper.read_text(encoding="utf-8")
     assert "| D10 |" in text and "| light-term |" in text and "100%" in text and "only time is lost" in text
-    assert "| cornell_unit | 256 |" in text
+    assert "| cornell_unit | 1 | 512 |" in text
     doctor_paper.write("table", "new\n", paper)
     text = paper.read_text(encoding="utf-8")
     assert "| D10 |" not in text and "| cornell_unit |" in text
