@@ -37,10 +37,13 @@ _SINGLE = frozenset(rule.id for rule in LAWS)
 def plan(scenes, paths, rounds):
     """Yield (key, scene, settings, all laws or those of single events): traces of each cell in turn until it
     has so many paths; each trace has a seed of its own round."""
+    cells = [
+        (scene, number, way, precision)
+        for scene, (number, way), precision in product(scenes, enumerate(WAYS), (32, 64))
+        if way.get("integrator") != "walk" or not tracer.load(scene).unmeetable
+    ]
     for turn in range(max(rounds, math.ceil(paths / (SIDE * SIDE * SPP)))):
-        for scene, (number, way), precision in product(scenes, enumerate(WAYS), (32, 64)):
-            if way.get("integrator") == "walk" and tracer.load(scene).unmeetable:
-                continue
+        for scene, number, way, precision in cells:
             settings = tracer.Settings(
                 width=SIDE, height=SIDE, spp=SPP, seed=SEED + turn, precision=precision, **way
             )
