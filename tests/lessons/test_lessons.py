@@ -34,6 +34,8 @@ each_moment = pytest.mark.parametrize(
 )
 # A number that a text may say: a whole one up to 10, or one that the front matter allows.
 SMALL = re.compile(r"10|\d")
+INLINE = re.compile(r"(?<!\$)\$([^$\n]+)\$(?!\$)")
+RELATION = re.compile(r"[=<>]|\\(?:le|ge|ne|approx|equiv|propto|iff)\b")
 DIGITS = re.compile(r"\d+(?:[.,]\d+)*")
 INSIDE = re.compile(r"\$\$.*?\$\$(?:\s*\([\w-]+\))?|\$[^$\n]+\$|`[^`]*`|\{\{[^}]*\}\}|\]\([^)]*\)", re.DOTALL)
 
@@ -163,6 +165,16 @@ def test_every_displayed_formula_is_computed_by_a_function_and_proved_by_a_test(
         assert callable(formula.computed), formula.function
         file, _, name = formula.test.partition("::")
         assert f"def {name}(" in (ROOT / file).read_text(encoding="utf-8"), formula.test
+
+
+@each_lesson
+def test_a_formula_in_the_running_text_is_displayed_too_or_is_set_aside(number):
+    it = lesson(number)
+    displayed = [latex for text in texts(number, "en").values() for latex in labels(text).values()]
+    inline = {latex for text in texts(number, "en").values() for latex in INLINE.findall(text)}
+    stated = {latex for latex in inline if RELATION.search(latex)}
+    assert stated <= {*displayed, *it.front.get("aside", ())}
+    assert set(it.front.get("aside", ())) <= stated
 
 
 @each_lesson
