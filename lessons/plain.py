@@ -50,7 +50,7 @@ def spelled(latex):
 
 def _tidy(text):
     """One space between things, none inside brackets, none behind a minus that stands before one thing."""
-    text = re.sub(r"(?<=[(√⟨|]) ", "", re.sub(r" +", " ", text)).strip()
+    text = re.sub(r"(?:(?<=[(√⟨])|(?<=[ (]\|)|(?<=^\|)) ", "", re.sub(r" +", " ", text)).strip()
     return re.sub(r"(^|[(,=<>≤≥≈·×]) ?− ", lambda m: f"{m[1]}{' ' if m[1] not in ('', '(') else ''}−", text)
 
 

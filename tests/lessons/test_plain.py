@@ -22,6 +22,8 @@ from lessons.plain import spelled
         (r"\hat{n} \cdot \omega", "n\u0302 · ω"),
         ("x_{k+1}", "x_(k + 1)"),
         (r"90^\circ", "90°"),
+        (r"|n_x p_x| + |n_y p_y|", "|nₓpₓ| + |n_yp_y|"),
+        (r"p(\omega_i \mid \omega_o)", "p(ωᵢ|ωₒ)"),
         (r"\frac{1}{N}\,\sum_{k=1}^{N}\,\frac{f(x_k)}{p(x_k)}", "1/N ∑_(k = 1)^N f(xₖ)/p(xₖ)"),
     ],
 )

@@ -16,7 +16,7 @@ TOLERANCE = 1e-4  # relative: far above rounding, far below anything one could s
 
 
 def experiment(run):
-    """Lengths in metres, shares as fractions."""
+    """Lengths in millimetres, as the homework has them; shares in percent."""
     light = run.event("start")
     r = np.float32(light["distance"])
     assert light["visible"] and not run.event("mistake")["visible"]
