@@ -9,12 +9,33 @@ from suite import castray
 
 import tracer
 from tracer.learner import child, starter
+from tracer.learner.calls import Looped
 from tracer.learner.value import Vector, dot, known, named
 from viewer.checking.learner import judged as held
 from viewer.checking.learner import settings_of
 from viewer.options import PathOptions
 
 TEXT = Path(starter.__file__).read_text(encoding="utf-8")
+
+LOOP = """
+from tracer.learner import Ray, dot
+
+def follow(scene, ray):
+    total, beta = 0.0, 1.0
+    while hit := scene.intersect(ray):
+        light = scene.sample_light()
+        scene.intersect(Ray(hit.p, light.p - hit.p))
+        if scene.random() > 0.8:
+            break
+        wi = hit.material.sample(-ray.direction, hit.n)
+        beta = beta * hit.material.eval(wi, -ray.direction, hit.n) * dot(hit.n, wi)
+        ray = Ray(hit.p OFFSET, wi)
+        total = total + beta * light.emission
+    return total
+
+def cast_ray(scene, ray, depth):
+    return follow(scene, ray)
+"""
 
 # What is changed in the starter, and the mistake that it makes of it.
 MISTAKES = {
@@ -77,6 +98,42 @@ def test_several_light_samples_are_one_if_their_mean_counts(tmp_path, mean, rule
     text = f"{TEXT[:begin]}    for _ in range(2):\n    {once}\n    direct = {mean}\n\n{TEXT[end:]}"
     found = judged(written(tmp_path, text)).findings
     assert [f.rule for f in found][:1] == ([rule] if rule else [])
+
+
+@pytest.mark.parametrize("offset", ["", "+ hit.n * 1e-4"])
+def test_paths_within_one_call_are_told_and_not_judged(tmp_path, offset):
+    with pytest.raises(Looped, match="be called for each bounce"):
+        judged(written(tmp_path, LOOP.replace("OFFSET", offset)), width=4, height=4, spp=2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("goes_on", "bug", "why"),
+    [
+        ("depth < 2", "R05", "end at depth 2: a cut"),
+        ("False", None, "no path goes on after its first surface"),
+    ],
+)
+def test_a_tracer_without_roulette_is_judged(tmp_path, goes_on, bug, why):
+    text = TEXT.replace("scene.random() < SURVIVAL", goes_on).replace(" / SURVIVAL", "")
+    first = judged(written(tmp_path, text)).findings[0]
+    assert (first.rule, first.bug) == ("absorbed", bug)
+    assert why in first.explanation
+
+
+def test_a_ray_made_anew_is_the_calls_own(tmp_path):
+    anew = "scene.intersect(Ray(ray.origin, normalize(ray.direction)))"
+    text = TEXT.replace("scene.intersect(ray)", anew)
+    assert anew in text
+    assert judged(written(tmp_path, text), width=4, height=4, spp=2).findings == ()
+
+
+def test_rays_that_go_on_through_what_blocks_them_are_no_path(tmp_path):
+    further = "blocker = scene.intersect(Ray(hit.p, wi))\n    "
+    text = TEXT.replace(further, f"{further}blocker and scene.intersect(Ray(blocker.p, wi))\n    ")
+    assert text != TEXT
+    never = text.replace("if scene.random() < SURVIVAL", "if False")  # so that it is no recursion
+    judged(written(tmp_path, never), width=4, height=4, spp=2)
 
 
 @pytest.mark.slow

@@ -177,7 +177,8 @@ class Builder:
         used = {float(fields["probability"]) for *_, fields in self._rows[ROULETTE.name]}
         roulette = self.settings.roulette
         if len(used) <= 1:
-            roulette = next((f"{q:.17g}" for q in used if 0.0 < q <= 1.0), "off")
+            none = "off" if self.settings.max_depth >= 0 else "auto"
+            roulette = next((f"{q:.17g}" for q in used if 0.0 < q <= 1.0), none)
         integrator = "direct" if self._rows[LIGHT.name] else "walk"
         return replace(self.settings, roulette=roulette, integrator=integrator)
 

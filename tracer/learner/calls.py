@@ -18,6 +18,10 @@ class Runaway(Exception):
     """A recursion that does not end."""
 
 
+class Looped(Exception):
+    """Paths that go on without a call for each bounce."""
+
+
 @dataclass
 class Call:
     """One call of cast_ray."""
@@ -29,6 +33,8 @@ class Call:
     randoms: list = field(default_factory=list)  # leaves
     children: list = field(default_factory=list)  # Calls
     asked: list = field(default_factory=list)  # directions of other rays that it sent
+    met: list = field(default_factory=list)  # (ray, Hit) of those that met something
+    loops: bool = False  # whether one of them left a point that another had met
     returned: Any = None  # Value
 
 
@@ -37,6 +43,7 @@ class Runner:
 
     def __init__(self, scene, module):
         self.world, self._inner, self._stack = World(scene), module.cast_ray, []
+        self._looped, self._called_itself = False, False
         module.cast_ray = self._traced  # so that it calls itself through here
 
     def path(self, origin, direction, pixel, sample, seed):
@@ -44,7 +51,18 @@ class Runner:
         self.world.start(pixel, sample, seed)
         self._stack = []
         self._traced(self.world, Ray(origin, direction), 0)
+        self._looped |= self._first.loops
+        self._called_itself |= bool(self._first.children)
         return self._first
+
+    def check_recursion(self):
+        """Raises Looped if no path was followed by calls within calls, and some were by a loop."""
+        if self._looped and not self._called_itself:
+            raise Looped(
+                "one call of cast_ray follows the whole path (a loop, or another function that calls "
+                "itself), so that its vertices cannot be told apart: let cast_ray be called for each bounce, "
+                "as in what castray check --new writes"
+            )
 
     def _traced(self, scene, ray, depth=0, *more):
         """cast_ray with its call kept."""

@@ -13,7 +13,7 @@ from types import ModuleType
 import numpy as np
 
 from tracer.learner.build import Builder
-from tracer.learner.calls import Runaway, Runner
+from tracer.learner.calls import Looped, Runaway, Runner
 from tracer.learner.value import Vector
 from tracer.scene_file.load import load
 from tracer.settings import Settings
@@ -55,6 +55,7 @@ def run(request):
             start, ahead = Vector(*o[:, pixel]), Vector(*d[:, pixel])
             call = runner.path(start, ahead, pixel, sample, settings.seed)
             builder.add(int(x[pixel]), int(y[pixel]), sample, film[:, pixel], call)
+    runner.check_recursion()
     return tuple(builder.traces())
 
 
@@ -70,7 +71,7 @@ def _module(path):
 
 def said(error, path):
     """An exception in one line, with the last place in the learner's file that led to it."""
-    if isinstance(error, Runaway):
+    if isinstance(error, (Looped, Runaway)):
         return f"{Path(path).name}: {error}"
     if isinstance(error, SyntaxError) and error.filename == path:
         return f"{Path(path).name}:{error.lineno}: {error.msg}: {(error.text or '').strip()}"

@@ -14,6 +14,9 @@ from tracer.learner.value import Point, Value, Vector, cross, named, normalize
 from tracer.settings import TracerError
 
 _START = 1e-6  # of the scene's size: nearer to the start of a ray that starts on no hit's p nothing is met
+_SAME = 1e-9  # how far directions may be apart that are one, made unit again
+_NEAR = 1e-3  # of the scene's size: a ray may start so far above the point that it leaves
+_TURNED = 1e-3  # how far directions are apart at least where a path turns
 
 
 class Ray:
@@ -123,7 +126,8 @@ class World:
         self._faces = _Faces(scene)
         self._materials = [Material(self, k) for k in range(len(scene.bsdf_names))]
         low, high = scene.bounds()
-        self._least = _START * float(np.linalg.norm(np.subtract(high, low)))
+        self._size = float(np.linalg.norm(np.subtract(high, low)))
+        self._least = _START * self._size
         self.lamp_area = self._faces.lamp_area
         self._random = random.Random(0)
 
@@ -144,8 +148,10 @@ class World:
 
     def intersect(self, ray):
         """The nearest Hit, None where the ray meets nothing."""
-        if self.log is not None and ray is not self.log.ray:
-            self.log.asked.append(ray.direction)
+        log, others = self.log, self.log is not None and not self._is_own(ray)
+        if others:
+            log.asked.append(ray.direction)
+            log.loops = log.loops or self._goes_on(ray)
         own = getattr(ray.origin, "face", None)
         least = self._least if own is None else 0.0
         found = self._faces.nearest(ray.origin.plain, ray.direction.plain, least, own)
@@ -159,9 +165,31 @@ class World:
         emission = named("Le", Le, hit=True) if Le.any() else Value(np.zeros(3), ())
         material = self._materials[self.scene.bsdf_of[primitive]]
         hit = Hit(p, Vector(*n), t, material, emission, primitive, front)
-        if self.log is not None and self.log.hit is None and ray is self.log.ray:
-            self.log.hit = hit
+        if others:
+            log.met.append((ray, hit))
+        elif log is not None and log.hit is None:
+            log.hit = hit
         return hit
+
+    def _is_own(self, ray):
+        """Whether a ray is that of the call under way: itself, or the first made of the same numbers."""
+        own = self.log.ray
+        return ray is own or (
+            self.log.hit is None
+            and _apart(ray.origin, own.origin) == 0.0
+            and _apart(ray.direction, own.direction) < _SAME
+        )
+
+    def _goes_on(self, ray):
+        """Whether a ray leaves, in another direction, a point that another ray of the same call met."""
+        log, near = self.log, _NEAR * self._size
+        if log.hit is None:
+            return False
+        near = min(near, _apart(ray.origin, log.hit.p))
+        return any(
+            _apart(ray.origin, hit.p) < near and _apart(ray.direction, before.direction) > _TURNED
+            for before, hit in log.met
+        )
 
     def sample_light(self):
         """A LightSample, uniform over the area of all lamps together."""
@@ -174,6 +202,11 @@ class World:
         if self.log is not None:
             self.log.lights.append(sample)
         return sample
+
+
+def _apart(a, b):
+    """How far two vectors are apart."""
+    return math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
 
 
 class _Faces:

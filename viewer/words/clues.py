@@ -5,6 +5,11 @@ An explanation is such pieces, joined by colons and semicolons; what stands here
 
 _PIECES = (
     ("recorded {value} from depth {depth} on", "从深度 {depth} 起记录为 {value}"),
+    (
+        "no path goes on after its first surface, nor is roulette played there",
+        "没有路径在第一个表面之后继续，那里也没有做轮盘赌",
+    ),
+    ("indirect light is missing", "缺少间接光"),
     ("a cut, which nothing makes up for", "路径被截断，而没有任何补偿"),
     ("all paths that come as far end at depth {depth}", "走到深度 {depth} 的路径全部在那里结束"),
     ("recorded 1/(2 pi), the density of uniform directions", "记录值是 1/(2 pi)，即均匀方向的密度"),

@@ -73,6 +73,8 @@ WORDS = {
         "error.learner_ended": "{name}: its process ended with code {code}; it may take {memory} GiB of memory",
         "error.learner_missing": "{name}: there is no such file; castray check --new {again} writes a starter",
         "error.learner_function": "{name}: AttributeError: there is no function cast_ray(scene, ray, depth) in it",
+        "error.learner_looped": "{name}: one call of cast_ray follows the whole path (a loop, or another function that calls itself), so that its vertices cannot be told apart: let cast_ray be called for each bounce, as in what castray check --new writes",
+        "error.learner_runaway": "{name}: cast_ray called itself {calls} times without an end: is its roulette played, and does it stop where a ray meets nothing?",
     },
     "zh": {
         "error.scene": "{what}：没有这个场景；请给出 .toml 或 .xml 文件，或以下之一：{known}",
@@ -142,5 +144,7 @@ WORDS = {
         "error.learner_ended": "{name}：它的进程以代码 {code} 结束；它最多可用 {memory} GiB 内存",
         "error.learner_missing": "{name}：没有这个文件；castray check --new {again} 会写出一个起点",
         "error.learner_function": "{name}：AttributeError：其中没有函数 cast_ray(scene, ray, depth)",
+        "error.learner_looped": "{name}：一次 cast_ray 调用就走完了整条路径（循环，或另一个调用自身的函数），因此无法分辨各个顶点：请让每次反弹都调用 cast_ray，像 castray check --new 写出的那样",
+        "error.learner_runaway": "{name}：cast_ray 调用自身 {calls} 次仍不结束：有没有做俄罗斯轮盘赌，光线什么也没碰到时是否停下？",
     },
 }

@@ -42,6 +42,13 @@ def absorbed(case):
     """Paths that end on a diffuse surface."""
     ends = case.evidence("end.reason")
     share = case.outcome.wrong.sum() / ends.size
+    unsaid = "roulette" in case.evidence.trace.free and case.evidence.count("roulette") == 0
+    if case.evidence.count("bounce") == 0 and unsaid:
+        return Clue(
+            None,
+            "no path goes on after its first surface, nor is roulette played there: "
+            "indirect light is missing",
+        )
     if case.evidence.count("bounce") == 0:
         return Clue(
             "W01",
