@@ -257,3 +257,40 @@ def test_each_law_is_held_once(tmp_path, monkeypatch):
 def test_samples_that_were_said_are_taken_though_they_are_a_default_elsewhere():
     plain, said = (settings_of(options).spp for options in (PathOptions(size=(9, 9)), PathOptions(spp=16)))
     assert (plain, said) == (settings_of(None).spp, 16)
+
+
+def test_numpys_functions_keep_what_vectors_and_values_remember():
+    n, wi = Vector(0, 0, 1), Vector(0.6, 0, 0.8)
+    for product in (np.dot(n, wi), np.inner(wi, n), np.dot(np.array([0, 0, 1]), wi)):
+        assert float(product) == 0.8 and product.terms[0][1][0][0].kind == "dot"
+    assert np.linalg.norm(wi).terms[0][1][0][0].kind == "length"
+    assert tuple(np.cross(n, wi)) == (0, 0.6, 0)
+    f = named("f", np.array([0.1, 0.2, 0.3]))
+    total = np.zeros(3)
+    total += np.float64(2.0) * f
+    assert total.terms == ((2.0, f.terms[0][1]),)  # as without NumPy
+    assert np.sqrt(np.dot(wi, wi)) == pytest.approx(1.0) and np.maximum(f, 0.2).tolist() == [0.2, 0.2, 0.3]
+    assert (wi[0], n[2], len(wi), float(f[1])) == (0.6, 1.0, 3, 0.2)
+    assert tuple(np.array([1, 2, 3]) - Vector(1, 1, 1)) == (0, 1, 2)
+
+
+NUMPY = {  # the starter's own lines as somebody writes them who thinks in arrays
+    "wo, n, material = -ray.direction": "wo, n, material = -np.array(ray.direction)",
+    "wi = normalize(towards)": "wi = towards / np.sqrt(np.dot(towards, towards))",
+    "cos, cos_light = max(dot(n, wi), 0.0), max(dot(light.n, -wi), 0.0)": (
+        "cos, cos_light = max(0, np.dot(n, wi)), max(0, -np.dot(light.n, wi))"
+    ),
+    "length(towards)": "np.linalg.norm(np.array(light.p) - np.array(hit.p))",
+    "    direct = 0.0": "    direct = np.zeros(3)",
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("cosine", "rules"), [("light.n, wi", []), ("n, wi", ["light-term"])])
+def test_a_tracer_in_numpy_is_judged_as_any_other(tmp_path, cosine, rules):
+    text = TEXT.replace("from tracer", "import numpy as np\nfrom tracer")
+    for right, other in NUMPY.items():
+        assert text.count(right) == 1
+        text = text.replace(right, other)
+    found = judged(written(tmp_path, text.replace("-np.dot(light.n, wi)", f"-np.dot({cosine})")))
+    assert [finding.rule for finding in found.causes] == rules

@@ -123,7 +123,10 @@ class Evidence:
     @cached_property
     def lamps(self):
         """What light sampling has to be."""
-        return Lamps(self.scene, self.settings, self.brute)
+        found = Lamps(self.scene, self.settings, self.brute)
+        if self.has("light.pick") and self.has("light.light"):
+            found.listen(self("light.light"), self("light.pick"), self.eps)
+        return found
 
     def is_unit(self, place):
         """Whether each vector of a column is finite and of length 1, (E,)."""

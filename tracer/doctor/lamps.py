@@ -9,6 +9,7 @@ from tracer.doctor.compare import judged
 from tracer.frame import dot
 from tracer.light.sample import DELTA, Ball, luminance
 
+_EVEN = 16.0  # machine epsilons by which probabilities of one lamp may differ, and their sum from 1
 _SMALL = 1e-4  # sr: seen so small a lamp may be sampled by its area where it should be by its solid angle
 
 
@@ -17,10 +18,16 @@ class Lamps:
 
     def __init__(self, scene, settings, brute):
         self.scene, self.settings, self.brute = scene, settings, brute
+        self.said = None  # the program's own probability of each light, (L,)
         self.by_area = scene.at(replace(settings, precision=64, light_sampling="area", accel="bvh"))
 
-    @cached_property
+    @property
     def pick(self):
+        """Probability of each light, (L,)."""
+        return self.by_power if self.said is None else self.said
+
+    @cached_property
+    def by_power(self):
         """Probability of each light, (L,): by the luminance of its power."""
         definition = self.scene.definition
         power = {}
@@ -32,6 +39,25 @@ class Lamps:
             power[emitter.name] = luminance(emitter.power(ball))
         found = np.array([power[name] for name in self.scene.light_names])
         return found / found.sum()
+
+    def listen(self, light, pick, eps):
+        """Take over the probabilities with which light samples (E,) say that lamps were chosen, where they
+        are one number for each lamp and add up to 1: by power, by area or all alike, any of it is in order.
+        What they leave over is shared by lamps that were never chosen."""
+        size = len(self.scene.light_names)
+        if size < 2 or self.scene.definition.emitters or not light.size:
+            return
+        low, high = np.full(size, np.inf), np.full(size, -np.inf)
+        np.minimum.at(low, light, pick)
+        np.maximum.at(high, light, pick)
+        seen, near = np.isfinite(low), _EVEN * eps
+        if not ((low > 0.0) & (high - low <= near * high))[seen].all():
+            return
+        if (np.abs(high - self.by_power) <= near * high)[seen].all():
+            return
+        rest = 1.0 - high[seen].sum()
+        if abs(rest) <= near if seen.all() else rest > near:
+            self.said = np.where(seen, high, rest / max(1, np.count_nonzero(~seen)))
 
     @cached_property
     def is_delta(self):
@@ -50,7 +76,10 @@ class Lamps:
         """Density (N,) in sr^-1, choice of the lamp included, with which light sampling at p (3, N) gives the
         direction to q (3, N) on lamps' primitives (N,); area: by area whatever the settings say."""
         scene = self.by_area if area else self.scene
-        return scene.lights.area.pdf(primitive, p, q, self.brute.normals(q, primitive))
+        found = scene.lights.area.pdf(primitive, p, q, self.brute.normals(q, primitive))
+        if self.said is None:
+            return found
+        return found * (self.said / self.by_power).take(self.scene.light_of.take(primitive))
 
     def hidden(self, p, primitive, room):
         """Whether lamps are spheres that are dark from p (3, N): an outward one from inside, an inward one

@@ -5,7 +5,18 @@ density, a radiance. Sums, products and quotients by a single term keep that; wh
 gives a plain float, of which nothing is known but how large it is.
 """
 
+import operator
+
 import numpy as np
+
+_OPERATORS = {
+    np.add: operator.add,
+    np.subtract: operator.sub,
+    np.multiply: operator.mul,
+    np.divide: operator.truediv,
+    np.negative: operator.neg,
+    np.absolute: abs,
+}
 
 
 class Leaf:
@@ -17,14 +28,45 @@ class Leaf:
         self.kind, self.value, self.of = kind, value, of
 
 
-class Value:
+class ForNumPy:
+    """What NumPy's functions make of a value or vector: arithmetic and products of vectors remember as ever,
+    everything else takes the plain numbers."""
+
+    __slots__ = ()
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(plain_of(self), dtype)
+
+    def __array_ufunc__(self, ufunc, method, *inputs, **options):
+        way = _OPERATORS.get(ufunc)
+        if way is not None and method == "__call__" and options.keys() <= {"out"}:  # of a += b
+            return way(*(x if isinstance(x, ForNumPy) else self._beside(x) for x in inputs))
+        return getattr(ufunc, method)(*map(plain_of, inputs), **options)
+
+    def __array_function__(self, function, types, inputs, options):
+        way = _PRODUCTS.get(function)
+        if way is not None and not options and not any(isinstance(x, Value) for x in inputs):
+            return way(*inputs)
+        return function(*map(plain_of, inputs), **options)
+
+
+class Value(ForNumPy):
     """A number or colour (3,) as a sum of terms (plain factor, ((leaf, power), ...))."""
 
     __slots__ = ("terms", "value")
-    __array_ufunc__ = None  # NumPy's arrays leave arithmetic with a value to the value
 
     def __init__(self, value, terms):
         self.value, self.terms = value, terms
+
+    @staticmethod
+    def _beside(other):
+        return known(other)
+
+    def __len__(self):
+        return len(self.value)
+
+    def __getitem__(self, channel):
+        return named("number", self.value[channel])
 
     def __add__(self, other):
         other = known(other)
@@ -104,39 +146,55 @@ class Value:
     @property
     def r(self):
         """The red channel."""
-        return named("number", self.value[0])
+        return self[0]
 
     @property
     def g(self):
         """The green channel."""
-        return named("number", self.value[1])
+        return self[1]
 
     @property
     def b(self):
         """The blue channel."""
-        return named("number", self.value[2])
+        return self[2]
 
     def __repr__(self):
         return repr(self.value)
 
 
-class Vector:
+class Vector(ForNumPy):
     """A point or direction: x, y, z. Sums, differences, multiples; `*` of two is component by component."""
 
     __slots__ = ("x", "y", "z")
-    __array_ufunc__ = None
 
     def __init__(self, x, y, z):
         self.x, self.y, self.z = float(x), float(y), float(z)
 
+    @staticmethod
+    def _beside(other):
+        return vector(other) if np.ndim(other) else float(other)
+
     def __iter__(self):
         return iter((self.x, self.y, self.z))
 
+    def __len__(self):
+        return 3
+
+    def __getitem__(self, axis):
+        return (self.x, self.y, self.z)[axis]
+
     def __add__(self, other):
+        other = vector(other)
         return Vector(self.x + other.x, self.y + other.y, self.z + other.z)
 
+    __radd__ = __add__
+
     def __sub__(self, other):
+        other = vector(other)
         return Vector(self.x - other.x, self.y - other.y, self.z - other.z)
+
+    def __rsub__(self, other):
+        return vector(other) - self
 
     def __neg__(self):
         return Vector(-self.x, -self.y, -self.z)
@@ -189,28 +247,41 @@ def known(other):
 
 
 def plain_of(value):
-    """The number or colour without what it remembers."""
+    """The number, colour or vector without what it remembers."""
+    if isinstance(value, Vector):
+        return value.plain
     return value.value if isinstance(value, Value) else value
+
+
+def vector(a):
+    """A Vector as it is; any other three numbers as one."""
+    return a if isinstance(a, Vector) else Vector(*a)
 
 
 def dot(a, b):
     """Dot product of two vectors, which remembers both."""
+    a, b = vector(a), vector(b)
     return named("dot", a.x * b.x + a.y * b.y + a.z * b.z, a=a, b=b)
 
 
 def cross(a, b):
     """Cross product of two vectors."""
+    a, b = vector(a), vector(b)
     return Vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 
 
 def length(a):
     """Length of a vector, which remembers it."""
+    a = vector(a)
     return named("length", float(np.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)), a=a)
 
 
 def normalize(a):
     """A vector of length 1 in the same direction."""
-    return a / length(a).value
+    return vector(a) / length(a).value
+
+
+_PRODUCTS = {np.dot: dot, np.inner: dot, np.vdot: dot, np.cross: cross, np.linalg.norm: length}
 
 
 def _joined(p, q):

@@ -10,7 +10,7 @@ import numpy as np
 
 from tracer.bsdf.diffuse import Diffuse
 from tracer.frame import Frame
-from tracer.learner.value import Point, Value, Vector, cross, named, normalize
+from tracer.learner.value import Point, Value, Vector, cross, named, normalize, vector
 from tracer.settings import TracerError
 
 _START = 1e-6  # of the scene's size: nearer to the start of a ray that starts on no hit's p nothing is met
@@ -20,12 +20,12 @@ _TURNED = 1e-3  # how far directions are apart at least where a path turns
 
 
 class Ray:
-    """Where a ray starts and its unit direction, both Vector."""
+    """Where a ray starts and its unit direction, both Vector (any three numbers become one)."""
 
     __slots__ = ("direction", "origin")
 
     def __init__(self, origin, direction):
-        self.origin, self.direction = origin, direction
+        self.origin, self.direction = vector(origin), vector(direction)
 
 
 class Hit:
@@ -68,6 +68,7 @@ class Material:
 
     def eval(self, wi, wo, n):
         """The BSDF from wi to wo, a colour, without the cosine."""
+        wi, wo, n = vector(wi), vector(wo), vector(n)
         if self._diffuse is not None:
             above = (wi.x * n.x + wi.y * n.y + wi.z * n.z > 0.0) and (
                 wo.x * n.x + wo.y * n.y + wo.z * n.z > 0.0
@@ -80,6 +81,7 @@ class Material:
 
     def pdf(self, wi, wo, n):
         """Density per solid angle with which `sample` gives wi."""
+        wi, wo, n = vector(wi), vector(wo), vector(n)
         if self._diffuse is not None:
             cos = wi.x * n.x + wi.y * n.y + wi.z * n.z
             above = cos > 0.0 and wo.x * n.x + wo.y * n.y + wo.z * n.z > 0.0
@@ -91,6 +93,7 @@ class Material:
 
     def sample(self, wo, n):
         """A direction wi to go on in."""
+        wo, n = vector(wo), vector(n)
         if self._diffuse is not None:
             return _hemisphere(n, self._world.draw(), self._world.draw(), self._world.scene.hemisphere)
         frame = Frame.around(n.plain[:, None])

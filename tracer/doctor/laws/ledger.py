@@ -71,10 +71,27 @@ def reason(evidence):
     black = end == _REASON["black"]
     if black.any():
         vertex = evidence.before("end", "hit")[black]
-        may[black], unsure[black] = _dark(evidence, vertex)
+        dark, unsure[black] = _dark(evidence, vertex)
+        may[black] = dark | ~_plain(evidence.scene).take(_material(evidence, vertex))
     return Outcome(
         "end", rows, ~may & ~unsure, unsure, end, end, "reason", facts={"reasons": np.unique(end[~may])}
     )
+
+
+def _plain(scene):
+    """Whether each material is diffuse of one colour, (M,): others may find no direction to go on in."""
+    from tracer.bsdf import Diffuse
+
+    return np.array(
+        [
+            isinstance(m, Diffuse) and not scene.definition.textures.get(name)
+            for name, m in scene.definition.bsdfs.items()
+        ]
+    )
+
+
+def _material(evidence, vertex):
+    return evidence.scene.bsdf_of.take(evidence("hit.primitive").take(vertex))
 
 
 def _dark(evidence, vertex):
@@ -99,8 +116,6 @@ def dead_stay_dead(evidence):
 
 def nothing_absorbed(evidence):
     """Diffuse surfaces that reflect anything absorb no path: they take their share from its throughput."""
-    from tracer.bsdf import Diffuse
-
     scene = evidence.scene
     if scene.has_smooth_normals:
         return None
@@ -108,13 +123,8 @@ def nothing_absorbed(evidence):
     lost = np.flatnonzero(end == _REASON["absorbed"])
     vertex = evidence.before("end", "hit")[lost]
     lost, vertex = lost[vertex >= 0], vertex[vertex >= 0]
-    plain = np.array(
-        [
-            isinstance(m, Diffuse) and not scene.definition.textures.get(name)
-            for name, m in scene.definition.bsdfs.items()
-        ]
-    )
-    here = plain.take(scene.bsdf_of.take(evidence("hit.primitive").take(vertex)))
+    plain = _plain(scene)
+    here = plain.take(_material(evidence, vertex))
     if not plain.any():
         return None
     lit = (evidence("hit.beta").take(vertex, axis=1) > 0.0).any(axis=0)

@@ -98,6 +98,22 @@ def term(evidence):
     return judged(evidence, "light", rows, evidence("light.contribution"), value, inputs, "contribution")
 
 
+def _unrecorded(evidence):
+    """What f and the lamp's front leave of the light (E,) where the log does not say them: whether a point is
+    seen need not be asked where nothing could arrive."""
+    p, q = evidence.at_vertex("light", "p"), evidence("light.q")
+    left, primitive = np.ones(q.shape[1]), evidence("light.primitive")
+    if not evidence.has("light.Le"):
+        shape = primitive >= 0
+        nq = evidence.brute.normals(q, np.where(shape, primitive, 0))
+        left *= ~shape | (dot(nq, p - q) > 0.0)
+    if not evidence.has("light.f") and evidence.has("hit.n") and evidence.has("hit.wo"):
+        n, wo, surface = (evidence.at_vertex("light", name) for name in ("n", "wo", "primitive"))
+        f = evidence.asked(p, n, wo, (q - p) / length(q - p), surface, "eval")
+        left *= f.max(axis=0)
+    return left
+
+
 def visible(evidence):
     """I6: whether the light point is seen, by every primitive asked one by one.
 
@@ -112,7 +128,7 @@ def visible(evidence):
             arriving = (
                 arriving / np.where(column > 0.0, column, np.inf) if name == "pdf" else arriving * column
             )
-    could = arriving > _LEAST
+    could = arriving * _unrecorded(evidence) > _LEAST
     seen = evidence("light.visible").astype(bool)
     rows = np.flatnonzero(could | seen)
     if not rows.size:

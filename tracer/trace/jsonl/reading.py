@@ -6,12 +6,13 @@ import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
-from tracer.trace.jsonl import calls, conventions, geometry, header, lines, peek, places, told
+from tracer.trace.jsonl import calls, conventions, flat, geometry, header, lines, peek, places, told
 from tracer.trace.jsonl.compact import compact
 from tracer.trace.jsonl.content import Read
 from tracer.trace.trace import Table, Trace
 
 _UNIFORM = 0.5 / np.pi
+_PLACE = ("path", "x", "y", "sample", "step", "depth")
 
 
 @dataclass(frozen=True)
@@ -216,6 +217,8 @@ def _of_events(read, scene, exact, settings, read_off):
     }
     steps = _steps(read.columns, of_kind)
     tables = {}
+    if "light" in read.columns:
+        flat.asked_where_due(read.columns["light"])
     for kind in (k.name for k in KINDS):
         if kind not in read.columns:
             none = np.empty(0, np.int64)
@@ -226,12 +229,14 @@ def _of_events(read, scene, exact, settings, read_off):
         columns = {
             name: column[..., order]
             for name, column in found.values.items()
-            if found.given[name].all() and name not in ("path", "x", "y", "sample", "step", "depth")
+            if found.given[name].all() and name not in _PLACE
         }
         depth = found.values.get("depth", np.zeros(path.size, np.int64))
         tables[kind] = Table(path[order], step[order], depth[order], columns)
+    notes = _partly(read.columns)
     _with_ends(tables, first.size)
-    assumed = frozenset(_summed(tables))
+    more = flat.Completed(exact, tables)
+    assumed = more.assumed | _summed(tables)
     free = frozenset()
     if "roulette" in read_off and tables["roulette"].path.size < tables["bounce"].path.size:
         del read_off["roulette"]  # it is played at some bounces only
@@ -242,9 +247,19 @@ def _of_events(read, scene, exact, settings, read_off):
     }
     trace = Trace(
         scene, settings, compact(paths, scene.dtype), tables, read.header.eps,
-        assumed=assumed, free=free, culled=True,
+        frozenset(more.rebuilt), frozenset(assumed), free=free, culled=True,
     )  # fmt: skip
-    return trace, _of_tables(exact, tables)
+    return trace, notes + more.notes
+
+
+def _partly(columns):
+    """What is said of fields that only some events of a kind have."""
+    return [
+        f"{kind}.{name} is in {np.count_nonzero(given)} of {given.size} such lines only: it is left out"
+        for kind, found in columns.items()
+        for name, given in found.given.items()
+        if given.any() and not given.all() and name not in _PLACE
+    ]
 
 
 def _all(found, name):
@@ -279,14 +294,3 @@ def _with_ends(tables, size):
     for table in tables.values():
         np.maximum.at(last, table.path, table.step)
     tables["end"] = Table(np.arange(size), last + 1, np.zeros(size, np.int64), {})
-
-
-def _of_tables(scene, tables):
-    hits = tables["hit"]
-    if hits["p"] is None or hits["primitive"] is not None or hits["wo"] is None:
-        return []
-    p, d = hits["p"].astype(np.float64), -hits["wo"].astype(np.float64)
-    primitive = geometry.primitives_at(scene, p - d, d, p)
-    hits.columns["primitive"] = np.maximum(primitive, 0).astype(np.int32)
-    nowhere = int(np.count_nonzero(primitive < 0))
-    return [f"{nowhere} vertices lie on no surface of {scene.name}"] if nowhere else []

@@ -50,6 +50,8 @@ def plain_numbers(f, column):
         if set(map(type, column)) != {list} or set(map(len, column)) != {f.shape[0]}:
             return None
         flat = list(chain.from_iterable(column))
+    elif None in column:  # of a name it stands for none, of a number for NaN
+        return None
     else:
         flat = column
     try:
