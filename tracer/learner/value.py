@@ -6,10 +6,12 @@ gives a plain float, of which nothing is known but how large it is.
 """
 
 import operator
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-_OPERATORS = {
+_OPERATORS: dict[Any, Callable] = {
     np.add: operator.add,
     np.subtract: operator.sub,
     np.multiply: operator.mul,
@@ -33,6 +35,7 @@ class ForNumPy:
     everything else takes the plain numbers."""
 
     __slots__ = ()
+    _beside: Callable  # what stands beside one in arithmetic, as its like
 
     def __array__(self, dtype=None, copy=None):
         return np.array(plain_of(self), dtype)
@@ -281,7 +284,13 @@ def normalize(a):
     return vector(a) / length(a).value
 
 
-_PRODUCTS = {np.dot: dot, np.inner: dot, np.vdot: dot, np.cross: cross, np.linalg.norm: length}
+_PRODUCTS: dict[Any, Callable] = {
+    np.dot: dot,
+    np.inner: dot,
+    np.vdot: dot,
+    np.cross: cross,
+    np.linalg.norm: length,
+}
 
 
 def _joined(p, q):
