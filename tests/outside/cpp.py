@@ -18,8 +18,8 @@ SOURCE = ROOT / "tests" / "cpp" / "castray_box.cpp"
 SIDE, SPP = 32, 8
 
 
-def diagnosed(changes, program=SOURCE, scene="cornell"):
-    """What the doctor says of a program with some of its text changed, {old: new}."""
+def diagnosed(changes, program=SOURCE, scene="cornell", flags=()):
+    """What the doctor says of a program with some of its text changed, {old: new}; flags: of the compiler."""
     text = program.read_text(encoding="utf-8")
     for old, new in changes.items():
         if text.count(old) != 1:
@@ -30,7 +30,17 @@ def diagnosed(changes, program=SOURCE, scene="cornell"):
         source.write_text(text, encoding="utf-8")
         shape = (f"-DPICTURE={SIDE}", f"-DSAMPLES={SPP}")
         compiler = shutil.which("g++") or shutil.which("clang++") or "g++"
-        words = [compiler, "-std=c++11", "-O1", "-pthread", *shape, "-I", header_file().parent, source]
+        words = [
+            compiler,
+            "-std=c++11",
+            "-O1",
+            "-pthread",
+            *shape,
+            *flags,
+            "-I",
+            header_file().parent,
+            source,
+        ]
         subprocess.run([*words, "-o", built], check=True)
         env = os.environ | {"CASTRAY_LOG": str(log), "CASTRAY_PIXELS": "all"}
         subprocess.run([built], env=env, check=True, stdout=subprocess.DEVNULL)

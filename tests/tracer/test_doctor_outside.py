@@ -7,7 +7,7 @@ import doctor_paper
 import numpy as np
 import pytest
 from mutants import changed, traced, with_column
-from outside import MISTAKES
+from outside import MISTAKES, hall, weekend
 
 from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
@@ -30,6 +30,23 @@ def test_a_mistake_of_no_catalogue_breaks_its_law_and_gets_no_wrong_name(id):
 @pytest.mark.slow
 def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_finding():
     assert MISTAKES["balls right"].diagnosed().findings == ()
+
+
+THIRD = {mistake.id: mistake for mistake in (*weekend.MISTAKES, *hall.MISTAKES)}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["weekend right", "hall right-by-mean", "hall right-evenly"])
+def test_a_right_program_may_choose_lamps_in_its_own_way_and_log_what_it_does_not_use(id):
+    assert THIRD[id].diagnosed().findings == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["weekend child-twice", "weekend shadow-from-zero", "hall next-lamp"])
+def test_a_mistake_of_which_little_is_logged_breaks_its_law_and_gets_no_wrong_name(id):
+    causes = THIRD[id].diagnosed().causes
+    assert causes[0].rule in THIRD[id].laws
+    assert {f.bug for f in causes if f.bug} <= set(THIRD[id].fair)
 
 
 @pytest.mark.parametrize(

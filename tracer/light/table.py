@@ -61,6 +61,11 @@ class Lights:
         return LightSample(*(np.broadcast_to(c, n) for c in columns), q, nq, wi, distance, Le, pdf * pick)
 
     @property
+    def pick(self):
+        """Probability of each light, (L,)."""
+        return self._pick
+
+    @property
     def cdf(self):
         """Where in [0, 1] one face or other light ends and the next begins, ascending."""
         return self._cdf

@@ -155,6 +155,11 @@ _PIECES = (
         "{share} of the free light points count as blocked, by the lamp itself",
         "{share} 的可见光源点算作被灯自身挡住",
     ),
+    ("{share} of the free light points count as blocked", "{share} 的可见光源点算作被挡"),
+    (
+        "rounding alone would hide about half of them, be it at the lamp or where the shadow ray starts",
+        "单靠舍入只会挡掉大约一半，无论是在灯处还是在阴影光线的起点",
+    ),
     (
         "the comparison of the two distances has no tolerance, and rounding decides",
         "两个距离的比较没有容差，由舍入决定",

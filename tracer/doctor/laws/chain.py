@@ -6,6 +6,7 @@ from tracer.doctor.compare import judged
 from tracer.doctor.rule import Outcome, Rule
 from tracer.frame import dot, length
 
+_NEAR = 1e-3  # share of the scene: what other programs do not meet nearer than that may be their tolerance
 _LEAST = 64.0  # ways shorter than this many times what points may be off have no direction to speak of
 
 
@@ -108,7 +109,13 @@ def first_surface(evidence):
     rows = np.arange(along.size)
     bad = along > sure + off + room
     unsure = np.isnan(sure) | ~(aside <= room) | (~bad & (may < along - off - room))
+    unsure |= bad & _too_near(evidence, sure)
     return Outcome("hit", rows, bad & ~unsure, unsure, along, sure, "t", facts={"met": which})
+
+
+def _too_near(evidence, t):
+    """Whether a surface is so near to a ray's start that a program with a tolerance may not meet it."""
+    return t < (_NEAR * evidence.scale if evidence.trace.culled else 0.0)
 
 
 def nothing_met(evidence):
@@ -118,6 +125,8 @@ def nothing_met(evidence):
     sure, may, which, off = _met(evidence, (o, d, source), good)
     bad = np.isfinite(sure) & good
     unsure = ~good | (~bad & np.isfinite(may))
+    unsure |= bad & _too_near(evidence, sure)
+    bad &= ~unsure
     return Outcome(
         "escape", np.arange(bad.size), bad, unsure, np.full(bad.size, np.inf), sure, "t", facts={"met": which}
     )

@@ -9,6 +9,7 @@ from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
 _INV_2PI = 0.5 / np.pi
+_A_TOSS = (0.02, 0.85)  # shares of the light points that rounding may hide
 
 
 def _cos_light(case):
@@ -84,6 +85,12 @@ def visible(case):
         )
     if not wrongly_seen.any():
         share = wrongly_dark.sum() / free.sum()
+        if not _A_TOSS[0] <= share <= _A_TOSS[1]:
+            return Clue(
+                None,
+                f"{share:.1%} of the free light points count as blocked: rounding alone would hide about "
+                "half of them, be it at the lamp or where the shadow ray starts",
+            )
         return Clue(
             "D01",
             f"{share:.0%} of the free light points count as blocked, by the lamp itself: the "

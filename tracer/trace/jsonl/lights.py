@@ -20,6 +20,7 @@ class Lights(Stages):
         if found["q"] is not None:
             self._pointed(found, rows)
         found["pick"] = found.get("pick", self._of_light("pick"))
+        self.picks = self._picks(found)
         wi = found["wi"]
         if wi is not None:
             vertex = self.places.vertex(rows)
@@ -61,6 +62,34 @@ class Lights(Stages):
         if len(self.scene.light_names) == 1:
             found["pick"] = said("pick", lambda: np.ones(rows.size))
 
+    def _picks(self, found):
+        """The probability of each light (L,), as it is logged; None where it is castray's own, or depends on
+        more than the light, or does not add up to 1."""
+        light, pick = found.get("light"), found["pick"]
+        if (
+            pick is None
+            or light is None
+            or not pick.size
+            or not np.isfinite(pick).all()
+            or not self.scene.has_lights
+        ):
+            return None
+        castrays = self.scene.lights.pick.astype(np.float64)
+        low, high = np.full(castrays.size, np.inf), np.full(castrays.size, -np.inf)
+        np.minimum.at(low, light.astype(np.intp), pick)
+        np.maximum.at(high, light.astype(np.intp), pick)
+        never, room = high < low, 64.0 * self.eps
+        own = np.where(never, castrays, high)
+        rest = 1.0 - own[~never].sum()
+        if (
+            (high[~never] > (1.0 + room) * low[~never]).any()
+            or rest < -room
+            or (rest > room and not never.any())
+        ):
+            return None
+        own[never] *= max(rest, 0.0) / max(own[never].sum(), 1e-300)
+        return None if np.allclose(own, castrays, rtol=4.0 * self.eps, atol=0.0) else own
+
     def _off(self):
         """How far each coordinate of a logged point may be off by its printing."""
         return self.eps * max(geometry.scale(self.scene), float(np.abs(self.scene.camera.origin).max()))
@@ -99,9 +128,18 @@ class Lights(Stages):
             return
         along = dot(self.places.n[:, rows], found["wi"])
         found["cos"] = np.where((along <= 0.0) & (found["cos"] <= 0.0), np.abs(along), found["cos"])
+        self._f_that_counts_for_nothing(found, rows, along)
         if found.get("visible") is not None and found.get("Le") is not None:
             could = (found["f"] * found["Le"]).any(axis=0) & (found["cos"] > 0.0)
             found["visible"] = np.where(could, found["visible"], 0.0)
+
+    def _f_that_counts_for_nothing(self, found, rows, along):
+        """Below the horizon many programs still have albedo / pi at hand, which they do not use."""
+        if not self._all_given("direct", rows) or not self.chain.given("light.f").any():
+            return
+        idle = np.flatnonzero((along <= 0.0) & (self.chain("direct")[:, rows] == 0.0).all(axis=0))
+        vertex = self.places.vertex(rows[idle])
+        found["f"][:, idle] = geometry.ask(self.scene, "eval", vertex, found["wi"][:, idle])
 
     def _lamps(self, q, wi):
         """The lamp's primitive (K,) that each light point lies on."""
@@ -112,8 +150,14 @@ class Lights(Stages):
             return np.full(q.shape[1], shining[0])
         reach = 0.1 * geometry.NEAR * geometry.scale(self.scene)
         t, primitive = geometry.met(self.scene, q - reach * wi, wi)
-        fine = (np.abs(t - reach) < reach) & (self.scene.light_of.take(np.maximum(primitive, 0)) >= 0)
-        return np.where(fine & (primitive >= 0), primitive, shining[0])
+        shines = lambda of: (of >= 0) & (self.scene.light_of.take(np.maximum(of, 0)) >= 0)  # noqa: E731
+        found = np.where((np.abs(t - reach) < reach) & shines(primitive), primitive, -1)
+        rest = np.flatnonzero(found < 0)  # at a lamp's edge, or along it
+        if rest.size:
+            o, d = q[:, rest] - wi[:, rest], wi[:, rest]
+            other = geometry.primitives_at(self.scene, o, d, q[:, rest])
+            found[rest] = np.where(shines(other), other, -1)
+        return np.where(found >= 0, found, shining[0])
 
     def _radiance(self, primitive, front):
         area = self.scene.lights.area if self.scene.lights is not None else None
@@ -135,6 +179,8 @@ class Lights(Stages):
                 over = np.where(said, self.chain("light.cos_light")[rows], cos) if said.any() else cos
                 over = np.where(over > 0.0, over, cos)
                 pdf = self.chain("light.pdf_area")[rows] * dot(gap, gap) / over
+                if self.chain.given("light.pick")[rows].all():
+                    pdf = pdf * self.chain("light.pick")[rows]
                 return np.where(cos > 0.0, pdf, 0.0)
             primitive = found["primitive"].astype(np.intp)
             if (primitive < 0).any():

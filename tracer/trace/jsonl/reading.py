@@ -109,7 +109,15 @@ def _read_off(read):
         found["hemisphere"] = "uniform"
     if _column(read, "light", "pdf_area").size and not _column(read, "light", "pdf").size:
         found["light_sampling"] = "area"
+    if "strategy" in read.header.options or _weighs(read):
+        found["integrator"] = "path"
     return {name: value for name, value in found.items() if name not in read.header.options}
+
+
+def _weighs(read):
+    """Whether some light is weighted: found both by light samples and by bounces."""
+    w = np.concatenate([_column(read, kind, "w") for kind in ("hit", "light")])
+    return bool(((w > 0.0) & (w < 1.0)).any())
 
 
 def _free(read, read_off):

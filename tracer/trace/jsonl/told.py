@@ -17,12 +17,12 @@ class Telling(Lights, Bounces):
 
     def tables(self):
         """Name of a kind -> Table, made one after the other to hold little at once."""
-        bounce = self._bounce()
+        bounce, light = self._bounce(), self._light()
         beta, after_bounce, after = self._throughputs(bounce)
         columns = {
             "camera": self._camera,
             "hit": lambda: self._hit(beta),
-            "light": lambda: self._lit_up(self._light(), beta),
+            "light": lambda: self._lit_up(light, beta),
             "bounce": lambda: self._bounced(bounce, beta, after_bounce),
             "roulette": lambda: self._roulette(after),
             "escape": lambda: self._escaped(beta),
@@ -108,6 +108,9 @@ class Telling(Lights, Bounces):
             p, o = self.places.p[:, rows[lit]], self.places.o[:, rows[lit]]
             ng, _ = geometry.surfaces(self.scene, p, self.places.d[:, rows[lit]], primitive[lit])
             pdf[lit] = self.scene.lights.area.pdf(primitive[lit], o, p, ng)
+            if self.picks is not None:
+                of = self.scene.light_of.take(primitive[lit])
+                pdf[lit] *= (self.picks / self.scene.lights.pick).take(of)
         return pdf
 
     def _bounced(self, bounce, beta, after):
