@@ -143,7 +143,9 @@ def why_dead(path, scene, say):
     if not samples:
         lights = say("dead.no_samples")
     elif len(reasons) == 1:
-        lights = say("dead.all", n=len(samples), reason=next(iter(reasons)))
+        lights = say(
+            "dead.one" if len(samples) == 1 else "dead.all", n=len(samples), reason=next(iter(reasons))
+        )
     else:
         parts = say.listed(*(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common()))
         lights = say("dead.some", n=len(samples), parts=parts)

@@ -11,6 +11,7 @@ from lessons.course import about
 from lessons.zoo import planted
 from tracer.settings import TracerError
 from viewer import overlay
+from viewer.doctor_report import counted
 from viewer.given import recorded_trace
 from viewer.worker import Stopped
 
@@ -151,7 +152,11 @@ class Examiner:
         if finding.rule not in self.chart.broken:
             raise TracerError(f"doctor: {finding.rule} follows from {finding.follows}; look where that is")
         values = self.chart.broken[finding.rule]
-        self.window.cover(overlay.scaled("doctor", "exam.map", values, low=0.0, rule=finding.rule))
+
+        def rule(say):
+            return counted(finding, say)["title"]
+
+        self.window.cover(overlay.scaled("doctor", "exam.map", values, low=0.0, rule=rule))
 
     def _finding(self, index):
         diagnosis = self.chart.diagnosis

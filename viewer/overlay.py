@@ -19,7 +19,8 @@ DECADES = 4  # of a logarithmic scale at most
 @dataclass(frozen=True)
 class Overlay:
     """values: (H, W) float32, NaN where there is nothing to show. by: the panel that shows it; title, unit:
-    keys of words, said with the values of `told`; kind: which STOPS; low and high: numbers at their ends."""
+    keys of words, said with the values of `told`, or with what these say in a language; kind: which STOPS;
+    low and high: numbers at their ends."""
 
     by: str
     title: str
@@ -34,7 +35,7 @@ class Overlay:
         """What the page needs to draw and explain it, beside the values."""
         return {
             "by": self.by,
-            "title": say(self.title, **self.told),
+            "title": say(self.title, **{k: v(say) if callable(v) else v for k, v in self.told.items()}),
             "kind": self.kind,
             "stops": list(STOPS[self.kind]),
             "low": self.low,

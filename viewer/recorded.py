@@ -9,6 +9,7 @@ from tracer.trace import folder, reading
 from tracer.trace.fingerprint import differences
 from tracer.trace.stored_scene import restore
 from viewer import link
+from viewer.session import telling_pixel
 
 
 def is_recording(text):
@@ -18,17 +19,18 @@ def is_recording(text):
 
 
 def serve_recording(text, port=None, open_browser=True, against=None, engine="numpy"):
-    """Open the viewer on a recording, at the place named behind its # or at its first path."""
+    """Open the viewer on a recording, at the place named behind its # or where it has most to tell."""
     from viewer import app  # which itself looks at recordings
 
     name, _, words = text.partition("#")
     place = folder.whole(name)
-    start = link.parse(f"scene=recorded&{words}").place if words else (0, 0, 0, 0)
+    start = link.parse(f"scene=recorded&{words}").place if words else None
     scene = restore(place.path, place.header["scene"]["name"])
-    if start is not None:
-        said = compared(place, scene, *start[:2])
-        if said:
-            print(f"castray: {said}", file=sys.stderr)
+    if start is None:
+        start = *telling_pixel(scene, place.settings), None, None
+    said = compared(place, scene, *start[:2])
+    if said:
+        print(f"castray: {said}", file=sys.stderr)
     app.serve(scene, place.settings, port, open_browser, start, place, against=against, engine=engine)
 
 

@@ -19,20 +19,33 @@ def inspect_command(scene, settings, place, changes=None, supposed=None):
     x, y, sample, _ = place
     words = [f"castray inspect {shlex.quote(scene)} --pixel {x} {y}"]
     words += [] if sample is None else [f"--sample {sample}"]
-    words.append(f"--size {settings.width} {settings.height}")
+    words += [*_options(settings, changes or {}), *_what_if(supposed or {})]
+    return " ".join(words)
+
+
+def _options(settings, changes):
+    """Settings and changes as a command's options; those that have their default are left out."""
+    words = [f"--size {settings.width} {settings.height}"]
     for f in fields(Settings):
         value = getattr(settings, f.name)
         if f.name not in ("width", "height") and value != f.default:
             option = f.name.replace("_", "-")
             words.append(f"--no-{option}" if value is False else f"--{option} {value}")
-    words += [f"--set {shlex.quote(text)}" for text in written(changes or {})]
-    words += [f"--what-if {text}" for text in what_if.written(supposed or {})]
-    return " ".join(words)
+    return words + [f"--set {shlex.quote(text)}" for text in written(changes)]
+
+
+def _what_if(supposed):
+    return [f"--what-if {text}" for text in what_if.written(supposed)]
 
 
 def view_command(scene, settings, place, changes=None):
     """`castray view` at (x, y, sample, step); None for a scene that a link cannot name."""
     return opening(Link(scene, settings, place, changes or {}))
+
+
+def serving(scene, settings, changes):
+    """`castray view` of a scene by the name it was asked for, be it a file."""
+    return " ".join([f"castray view {shlex.quote(scene)}", *_options(settings, changes)])
 
 
 def opening(link):

@@ -140,8 +140,8 @@ class Session:
             raise
 
     def stand(self, place):
-        """Go to (x, y, path, event), event None to where the path is given most; without a place, where the
-        scene has most to tell."""
+        """Go to (x, y, path, event), path None to the brightest, event None to where it is given most;
+        without a place, where the scene has most to tell."""
         if place is None:
             self.pick(*telling_pixel(self.scene, self.settings))
             self.cursor = self.cursor.at(most_giving(self.path))
@@ -149,6 +149,7 @@ class Session:
         x, y, path, event = place
         if self.cursor is None or (x, y) != (self.cursor.x, self.cursor.y):
             self.pick(x, y)
+        path = brightest(self.record) if path is None else path
         self.cursor = Cursor(x, y, self.cursor.lengths, path)
         event = most_giving(self.path) if event is None else event
         self.cursor = Cursor(x, y, self.cursor.lengths, path, event)

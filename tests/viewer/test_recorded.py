@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import numpy as np
 import pytest
 
 import tracer
@@ -11,6 +12,7 @@ from tracer.trace import folder
 from viewer import app as viewer_app
 from viewer.cli import main
 from viewer.recorded import compared, is_recording
+from viewer.session import Session
 
 SETTINGS = tracer.Settings(width=6, height=5, spp=3, max_depth=5, bug="E01")
 
@@ -42,10 +44,13 @@ def run(*words):
     return ended.value.code
 
 
-def test_a_recording_opens_at_its_first_path(box, opened, capsys):
+def test_a_recording_opens_where_its_scene_would_at_an_event_that_gives_light(box, opened, capsys):
     assert run("view", box, "--no-browser") == 0
     (session,) = opened
-    assert (session.cursor.x, session.cursor.y, session.cursor.path, session.cursor.event) == (0, 0, 0, 0)
+    alone = Session(session.scene, SETTINGS, None)
+    alone.stand(None)
+    assert session.cursor == alone.cursor
+    assert np.any(session.event.values["contribution"] > 0)
     assert session.settings == SETTINGS
     assert capsys.readouterr().err == ""
 

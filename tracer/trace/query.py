@@ -226,6 +226,7 @@ def _plainly(words):
     said = re.sub(
         r'^Referenced column ("[^"]+") not found in FROM clause!?$', r"there is no column \1", words
     )
+    said = re.sub(r"^\w+ Function with name (\S+) does not exist!?$", r"there is no function \1", said)
     return re.sub(r"^Table with name (\S+) does not exist!?$", r"there is no view \1", said)
 
 

@@ -10,6 +10,7 @@ from viewer.finding import maps, ranks, survey
 from viewer.worker import Stopped
 
 SHOWN = 200  # paths, or rows, that are listed
+MASK = "overlay.mask"  # what the pixels of the paths found are called
 
 
 @dataclass
@@ -195,8 +196,12 @@ class Finder:
             if desk.text != text:  # something else was asked meanwhile
                 return
             desk.answer = answer
-            if "mask" in answer and desk.covering == f"mask {text}":
-                self.window.cover(overlay.mask("find", "overlay.mask", answer["mask"], desk.survey.settings))
+            if answer.get("found"):
+                if desk.covering == f"mask {text}":
+                    cover = overlay.mask("find", MASK, answer["mask"], desk.survey.settings)
+                    self.window.cover(cover)
+            elif self.session.overlay and self.session.overlay.title == MASK:  # of what was asked before
+                self.window.cover(None)
 
         return done
 

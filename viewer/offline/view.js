@@ -48,6 +48,12 @@ window.castrayView = (element, data) => {
   const other = make("span", "other", bar);
   const up = button(other, "▲", data.words.up, () => turn(-1)), number = make("span", "count", other), down = button(other, "▼", data.words.down, () => turn(1));
   const head = make("b", "", told), text = make("p", "", told);
+  // a symbol as it is printed: what stands behind its _ is an index
+  function named(text) {
+    const [, base, index] = /^(\w)_(\w)$/.exec(text) || [null, text, ""], made = make("span", "label", labels, base);
+    if (index) make("sub", "", made, index);
+    return made;
+  }
   function button(parent, sign, name, act) {
     const made = make("button", "", parent, sign);
     Object.assign(made, { type: "button", title: name, onclick: act });
@@ -135,8 +141,8 @@ window.castrayView = (element, data) => {
     strokes = { buffer: buffer(lines), count: lines.length / 14 };
     dots = { buffer: buffer(points), count: points.length / 8 };
     labels.replaceChildren();
-    for (const [name, start, way, length] of event.arrows) Object.assign(make("span", "label", labels, data.names[name]), { at: add(start, way, 1.15 * length) }).style.color = `rgb(${colours[name].map((c) => 255 * c)})`;
-    for (const { text: words, at } of lobes.labels) Object.assign(make("span", "label", labels, words), { at });
+    for (const [name, start, way, length] of event.arrows) Object.assign(named(data.names[name]), { at: add(start, way, 1.15 * length) }).style.color = `rgb(${colours[name].map((c) => 255 * c)})`;
+    for (const { text: words, at } of lobes.labels) Object.assign(named(words), { at });
   }
 
   const ahead = () => unit(sub(place.to, place.eye)), aside = () => unit(cross(ahead(), place.up));

@@ -16,7 +16,7 @@ TEMPLATE = """
   <h2>{{ w.change_settings }}</h2>
   <castray-knob v-for="dial in change.dials" :key="dial.key" :knob="dial" call="tune"></castray-knob>
   <template v-if="change.changed"><h2>{{ w.change_command }}</h2>
-    <code class="command" data-testid="change-command">{{ change.command }}</code></template>
+    <castray-command data-testid="change-command" :text="change.command"></castray-command></template>
 </div>
 """
 
@@ -46,13 +46,15 @@ def _shown(knob, say):
 def _dial(dial, say):
     name = dial["name"]
     choices = [{"value": c, "text": say.dialed(c) if c else say("value.none")} for c in dial["choices"]]
+    kind = "choice" if choices else "number" if isinstance(dial["value"], int) else "text"
     return {
         "key": name,
         "label": say.dial(name),
         "title": f"--{name.replace('_', '-')}: {say.setting(name)}",
         "value": dial["value"],
         "choices": choices,
-        "kind": "choice" if choices else "number" if isinstance(dial["value"], int) else "text",
+        "kind": kind,
+        "note": say.optional(f"dialed.{dial['value']}", "") if kind == "number" else "",
     }
 
 

@@ -28,7 +28,7 @@ TEMPLATE = """
   <details v-if="doctor.following.length"><summary>{{ doctor.following_head }}</summary><ul class="rules"><li v-for="f in doctor.following" :key="f.rule">
     <button class="plain" :disabled="!f.place" @click="trigger('doctor_go', [f.index])">{{ f.text }}</button></li></ul></details>
   <details v-if="doctor.clean.length" data-testid="doctor-clean" :data-rules="doctor.clean.length"><summary>{{ doctor.clean_head }}</summary>
-    <table class="rows"><thead><tr><th scope="col">{{ w.exam_rule }}</th><th scope="col">{{ w.exam_checked }}</th></tr></thead><tbody>
+    <table class="rows"><thead><tr><th scope="col">{{ w.exam_rule }}</th><th scope="col" class="number">{{ w.exam_checked }}</th></tr></thead><tbody>
       <tr v-for="r in doctor.clean" :key="r.rule" :title="r.law"><td>{{ r.title }}</td><td class="number">{{ r.checked }}</td></tr></tbody></table></details>
   <details v-if="doctor.untestable.length" data-testid="doctor-untestable" :data-rules="doctor.untestable.length"><summary>{{ doctor.untestable_head }}</summary>
     <table class="rows"><thead><tr><th scope="col">{{ w.exam_rule }}</th><th scope="col">{{ w.exam_missing }}</th></tr></thead><tbody>
@@ -128,7 +128,7 @@ def _rule(verdict, say):
         "rule": rule.id,
         "title": say.optional(f"rule.{rule.id}", rule.title),
         "law": say.optional(f"law.{rule.id}", rule.law),
-        "checked": verdict.checked,
+        "checked": f"{verdict.checked:,}",
         "missing": say.lacking(verdict.missing),
     }
 

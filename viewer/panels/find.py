@@ -18,12 +18,12 @@ EXAMPLES = (
 )
 
 TEMPLATE = """
-<div class="find" data-testid="find">
+<div class="find" data-testid="find"><p v-if="find.foreign" class="dim" data-testid="find-foreign">{{ find.foreign }}</p><template v-else>
   <castray-query :text="find.text" :examples="find.examples" :invalid="!!find.error" :words="w" @ask="trigger('find', [$event])"></castray-query>
   <div class="chips" role="group" :aria-label="w.find_stops">
     <button v-for="s in find.stops" :key="s.name" :data-testid="'stop-' + s.name" :title="s.title" @click="trigger('find_stop', [s.name])">{{ s.label }}</button></div>
   <p class="status dim" role="status" data-testid="find-status"><span v-if="find.busy" class="busy" aria-hidden="true"></span>{{ find.status }}
-    <button v-if="find.can_prepare" data-testid="find-prepare" @click="trigger('find_prepare')">{{ w.find_prepare }}</button></p>
+    <button v-if="find.can_prepare" data-testid="find-prepare" @click="trigger('find_prepare')">{{ find.recording ? w.find_look : w.find_prepare }}</button></p>
   <div v-if="find.error" class="warning" role="alert" data-testid="find-error">{{ find.error.words }}
     <pre v-if="find.error.at !== null" data-testid="find-caret" :data-at="find.error.at">{{ find.error.before }}<mark>{{ find.error.marked }}</mark>{{ find.error.after }}</pre>
     <details v-if="find.error.names.length"><summary>{{ w.find_columns }}</summary><code class="names">{{ find.error.names.join('  ') }}</code></details></div>
@@ -46,7 +46,7 @@ TEMPLATE = """
     <p v-if="!find.fireflies.length" class="dim" data-testid="no-fireflies">{{ w.fireflies_none }}</p>
     <ol v-if="find.fireflies.length" class="hits" :aria-label="w.fireflies" data-testid="fireflies"><li v-for="(row, k) in find.fireflies" :key="k"><button :data-testid="'firefly-' + k"
       @click="trigger('find_firefly', [k])"><span class="number">{{ row.pixel }}</span><span>{{ row.path }}</span><span class="dim">{{ row.said }}</span></button></li></ol></section>
-</div>
+</template></div>
 """
 
 
@@ -74,6 +74,8 @@ def show(session, say):
         for name, b in BREAKPOINTS.items()
     ]
     return {
+        "foreign": say("find.foreign", name=session.given.name) if session.given else "",
+        "recording": session.recording is not None,
         "text": desk.text,
         "examples": list(EXAMPLES),
         "stops": stops,

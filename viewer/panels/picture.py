@@ -26,7 +26,7 @@ TEMPLATE = """
     <button class="small" data-testid="pixel-forward" :disabled="!picture.ahead" :aria-label="w.pixel_forward" :title="w.pixel_forward"
       @click="trigger('back', [1])"><castray-icon name="forward"/></button>
   </div>
-  <div class="row" :title="w.pixel_value"><span>RGB</span><span class="grow"></span>
+  <div class="row" :title="w.pixel_value"><span>RGB</span>
     <output class="rgb" data-testid="pixel-value" :data-exact="JSON.stringify(picture.exact)">{{ picture.value }}</output>
   </div>
   <label class="row" :title="w.exposure_help">{{ w.exposure }}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from viewer.caption import named
-from viewer.numerals import several, short
+from viewer.numerals import short
 from viewer.panels.panel import Panel
 from viewer.traces import last_hit
 from viewer.understanding import lens as lenses
@@ -25,7 +25,7 @@ TEMPLATE = """
     <ul class="dots" :aria-label="vertex.tried"><li v-for="k in ['bounce', 'lit', 'blocked', 'idle']" :key="k"><i :class="k"></i>{{ w['dot_' + k] }}</li></ul>
     <p class="dim" data-testid="lens-tried" :data-exact="JSON.stringify(vertex.tried_exact)">{{ vertex.tried }}</p>
     <table class="data"><tbody><tr v-for="v in vertex.vectors" :key="v.name" :data-testid="'vector-' + v.name" :data-exact="JSON.stringify(v.exact)">
-      <th scope="row"><i class="swatch" :class="v.name"></i>{{ v.symbol }}</th><td class="number">{{ v.said }}</td></tr></tbody></table>
+      <th scope="row"><i class="swatch" :class="v.name"></i><castray-symbol :text="v.symbol"></castray-symbol></th><td class="number">{{ v.said }}</td></tr></tbody></table>
     <h2>{{ w.vertex_plane }}</h2><castray-plane :plane="vertex.plane" :label="w.vertex_plane_label"></castray-plane>
     <template v-if="vertex.terms.length"><h2>{{ w.vertex_facets }}</h2><table class="data"><thead><tr><th></th><th scope="col" class="side">{{ w.vertex_here }}</th><th scope="col" class="side">{{ w.vertex_head_on }}</th></tr></thead>
       <tbody><tr v-for="t in vertex.terms" :key="t.name" :data-testid="'term-' + t.name" :data-exact="JSON.stringify(t.exact)"><th scope="row" :title="t.meaning">{{ t.name }} <small>{{ t.meaning }}</small></th>
@@ -118,10 +118,15 @@ def _term(name, here, head_on, say):
     return {
         "name": name,
         "meaning": say(f"term.{name}"),
-        "here": several(here),
-        "head_on": several(head_on),
+        "here": _below(here),
+        "head_on": _below(head_on),
         "exact": exact,
     }
+
+
+def _below(values):
+    """A number, or those of a colour one below another."""
+    return "\n".join(short(v) for v in np.ravel(values))
 
 
 def _ends(session, scene, say):

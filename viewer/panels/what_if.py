@@ -7,9 +7,9 @@ import numpy as np
 import tracer
 from tracer.recorder import number
 from tracer.settings import TracerError
-from tracer.what_if import FATES, KINDS, parse, written
+from tracer.what_if import FATES, KINDS, parse
 from viewer.caption import caption
-from viewer.numerals import NOTHING, css, several
+from viewer.numerals import NOTHING, css, several, short
 from viewer.panels.panel import Panel
 from viewer.panels.timeline import GLYPHS
 from viewer.tuning import real_from
@@ -22,7 +22,7 @@ TEMPLATE = """
   <castray-knob v-for="knob in what_if.knobs" :key="what_if.at + knob.key" :knob="knob" call="suppose"></castray-knob>
   <template v-if="what_if.supposed.length">
     <h2>{{ w.what_if_supposed }}</h2>
-    <div v-for="one in what_if.supposed" :key="one.key" class="row"><code class="grow">{{ one.text }}</code>
+    <div v-for="one in what_if.supposed" :key="one.key" class="row"><span class="grow">{{ one.text }}</span>
       <button :data-testid="'unsuppose-' + one.key" :aria-label="w.what_if_drop" :title="w.what_if_drop" @click="trigger('suppose_not', [one.key])">✕</button></div>
     <p><button data-testid="what-if-reset" @click="trigger('suppose_not')">{{ w.what_if_reset }}</button></p>
     <h2>{{ w.what_if_ledger }}</h2>
@@ -34,7 +34,7 @@ TEMPLATE = """
     <ol class="would" data-testid="what-if-events"><li v-for="row in what_if.events" :key="row.step">
       <span class="kind" :class="row.kind"><i aria-hidden="true">{{ row.glyph }}</i> {{ row.name }}</span> <span class="dim">{{ row.text }}</span>
       <span v-if="row.adds" class="number"><i class="swatch" :style="{background: row.colour}"></i>{{ row.adds }}</span></li></ol>
-    <h2>{{ w.change_command }}</h2><code class="command" data-testid="what-if-command">{{ what_if.command }}</code>
+    <h2>{{ w.change_command }}</h2><castray-command data-testid="what-if-command" :text="what_if.command"></castray-command>
   </template>
 </div>
 """
@@ -52,9 +52,21 @@ def show(session, say):
     }
     if there is None:
         return found
-    texts = zip(sorted(there.what), written(there.what), strict=True)
-    supposed = [{"key": f"{depth}.{name}", "text": text} for (depth, name), text in texts]
+    supposed = [
+        {"key": f"{depth}.{name}", "text": _said(depth, name, value, say)}
+        for (depth, name), value in sorted(there.what.items())
+    ]
     return found | {"supposed": supposed} | _outcome(session, there, say)
+
+
+def _said(depth, name, value, say):
+    """A supposition in words."""
+    if name == "roulette":
+        return say("what_if.said.roulette", depth=depth, fate=say(f"what_if.{value}"))
+    told = dict(
+        zip(("off", "turn") if name == "bounce" else ("which", "u1", "u2"), map(short, value), strict=True)
+    )
+    return say(f"what_if.said.{name}", depth=depth, **told)
 
 
 def _choice(session):
@@ -127,7 +139,7 @@ def _hit_shape(session):
 def _light_knobs(session, say):
     which, *place = now(session)
     knobs = [
-        _knob(session.event, k + 1, say("what_if.place", k=k + 1), u, 0, LARGEST_NUMBER, 0.01)
+        _knob(session.event, k + 1, say("what_if.place", sign="₁₂"[k]), u, 0, LARGEST_NUMBER, 0.01)
         for k, u in enumerate(place)
     ]
     if len(session.scene.light_names) > 1:

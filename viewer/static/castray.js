@@ -13,8 +13,11 @@
   // bytes of the server as numbers; they lie anywhere in its message
   const numbers = (Type, bytes) => new Type(bytes.slice().buffer);
 
+  // a symbol as it is printed: what stands behind its _ is an index
+  const symbol = (text) => { const [, base, index] = /^(\w)_(\w)$/.exec(text) || [null, text, ""]; return { base, index }; };
+
   window.castray = {
-    fitted, short, clamp, numbers,
+    fitted, short, clamp, numbers, symbol,
     install(app) {
       // scripts arrive in any order: each left word of how its parts are made
       for (const make of window.castrayParts || []) {

@@ -61,13 +61,14 @@
       const now = () => (held.value === null ? props.knob.value : held.value);
       return { turn, now, short, held };
     },
-    template: `<label class="knob" :title="knob.title"><span class="name">{{ knob.label }}</span>
+    template: `<label class="knob" :class="{noted: knob.note}" :title="knob.title"><span class="name">{{ knob.label }}</span>
       <select v-if="knob.kind === 'choice'" :value="now()" :aria-label="knob.label" :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
         <option v-for="choice in knob.choices" :key="choice.value" :value="choice.value">{{ choice.text }}</option></select>
       <template v-else-if="knob.kind === 'range'"><i v-if="knob.colour" class="swatch" :style="{background: knob.colour}"></i>
         <input type="range" :min="knob.low" :max="knob.high" :step="knob.step" :value="now()" :aria-label="knob.label"
           :data-testid="call + '-' + knob.key" @input="turn(Number($event.target.value))"><output>{{ short(Number(now())) }}</output></template>
       <input v-else :type="knob.kind" :value="now()" :aria-label="knob.label" :data-testid="call + '-' + knob.key" @change="turn($event.target.value)">
+      <span v-if="knob.note" class="dim">{{ knob.note }}</span>
     </label>`,
   };
 
@@ -86,6 +87,18 @@
       <button data-testid="share-copy" @click="copy()">{{ done ? words.share_copied : words.share_copy }}</button></div>`,
   };
 
+  // a command, whose words are not broken at their hyphens
+  const Command = {
+    props: ["text"],
+    template: `<code class="command"><template v-for="(word, k) in text.split(' ')" :key="k">{{ k ? " " : "" }}<span>{{ word }}</span></template></code>`,
+  };
+
+  const Symbol = {
+    props: ["text"],
+    setup: () => ({ symbol: castray.symbol }),
+    template: `<span>{{ symbol(text).base }}<sub v-if="symbol(text).index">{{ symbol(text).index }}</sub></span>`,
+  };
+
   const SHAPES = {
     back: "M15 5l-7 7 7 7", forward: "M9 5l7 7-7 7", close: "M6 6l12 12M18 6 6 18",
     first: "M6 5v14M19 5 9 12l10 7z", previous: "M17 5 7 12l10 7z", play: "M7 5l12 7-12 7z", pause: "M8 5v14M16 5v14",
@@ -98,5 +111,5 @@
     template: `<svg viewBox="0 0 24 24" aria-hidden="true"><path :d="SHAPES[name]"/></svg>`,
   };
 
-  return { CastrayBars: Bars, CastrayKnob: Knob, CastrayCopy: Copy, CastrayIcon: Icon };
+  return { CastrayBars: Bars, CastrayKnob: Knob, CastrayCopy: Copy, CastrayCommand: Command, CastraySymbol: Symbol, CastrayIcon: Icon };
 });

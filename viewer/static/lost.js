@@ -8,7 +8,7 @@
     const state = window.trame && window.trame.state;
     if (!state || !state.get("w")) return;
     words = state.get("w");
-    command = (state.get("share") || {}).command || "castray view ...";
+    command = (state.get("share") || {}).again || "castray view";
   }
 
   // it may have ended, or have been started again under a new key, which this browser has not got yet

@@ -101,7 +101,7 @@
       const home = () => { aimed = null; };
       return { box, home };
     },
-    template: `<div class="labels"><div ref="box"><span v-for="label in labels" :key="label.text" class="label" :class="label.layer">{{ label.text }}</span></div>
+    template: `<div class="labels"><div ref="box"><span v-for="label in labels" :key="label.text" class="label" :class="label.layer"><castray-symbol :text="label.text"/></span></div>
       <slot :home="home"></slot></div>`,
   };
 

@@ -1,7 +1,7 @@
 // The hemisphere over a vertex, the plane of incidence, and a ray's start to the scale of an ulp.
 (window.castrayParts ||= []).push((castray) => {
   const { onBeforeUnmount, onMounted, ref, watch } = window.Vue;
-  const { fitted } = castray;
+  const { fitted, symbol } = castray;
   const COLOURS = { n: "#8ff5a8", ng: "#9a62ea", wo: "#66b8ff", wi: "#f07f2c", h: "#d93678", f: "#ffd257", p: "#5fc7d8" };
   const DOTS = { bounce: "#f07f2c", lit: "#ffd92e", blocked: "#f0406a", idle: "#a9b2c2" };
 
@@ -43,9 +43,19 @@
     if (hollow) { g.strokeStyle = colour; g.lineWidth = 1.4; g.stroke(); return; }
     g.fillStyle = colour; g.fill(); g.strokeStyle = "#0b0d11"; g.lineWidth = 0.7; g.stroke();
   }
-  function name(g, text, x, y, colour, width) {
-    g.font = '13px "STIX Two Math", serif'; g.textAlign = x > width - 24 ? "right" : "left";
-    g.lineWidth = 3; g.strokeStyle = "#0b0d11"; g.strokeText(text, x, y); g.fillStyle = colour; g.fillText(text, x, y);
+  const FONT = 'px "STIX Two Math", serif', TALL = 13, APART = 12;
+  // a name beside its point, or where another stands already left of it or below
+  function name(g, text, x, y, colour, width, taken = []) {
+    const { base, index } = symbol(text);
+    g.font = TALL + FONT; g.textAlign = "left";
+    const wide = g.measureText(base).width, all = wide + (index ? 6 : 0), left = x > width - 24;
+    const near = left ? x - all : x, far = x - all - 10, places = [[near, y], [far, y], [near, y + 17], [far, y + 17]];
+    const free = ([a, b]) => taken.every(([c, d, w]) => Math.abs(b - d) >= APART || a + all < c || c + w < a);
+    const [a, b] = places.find(free) || places[0];
+    taken.push([a, b, all]);
+    const put = (words, at, low) => { g.lineWidth = 3; g.strokeStyle = "#0b0d11"; g.strokeText(words, at, low); g.fillStyle = colour; g.fillText(words, at, low); };
+    put(base, a, b);
+    if (index) { g.font = 10 + FONT; put(index, a + wide, b + 3); }
   }
 
   const Lens = {
@@ -68,10 +78,11 @@
               spot(g, ...at, 2.6, DOTS[dot.kind], dot.kind !== "bounce" && dot.kind !== "lit");
               spots.push({ at, dot });
             }
+            const taken = [];
             for (const mark of one.marks) {
               const mx = x + r * mark.at[0], my = y + r * mark.at[1];
               spot(g, mx, my, 3.4, COLOURS[mark.name], false);
-              if (!j) name(g, mark.symbol, mx + 5, my - 4, COLOURS[mark.name], width);
+              if (!j) name(g, mark.symbol, mx + 5, my - 4, COLOURS[mark.name], width, taken);
             }
           });
           g.font = "11px system-ui, sans-serif"; g.fillStyle = "#9aa4b5"; g.textAlign = "center";
@@ -134,11 +145,12 @@
           g.strokeStyle = k ? COLOURS.p : COLOURS.f; g.fillStyle = g.strokeStyle; g.lineWidth = 1.8; g.setLineDash(k ? [5, 4] : []); g.stroke(); g.setLineDash([]);
           g.globalAlpha = 0.1; g.fill(); g.globalAlpha = 1;
         });
+        const taken = [];
         for (const v of vectors) {
           const end = [x + r * v.at[0], y - r * v.at[1] * up];
           g.strokeStyle = COLOURS[v.name]; g.lineWidth = 2; g.beginPath(); g.moveTo(x, y); g.lineTo(...end); g.stroke();
           spot(g, ...end, 3, COLOURS[v.name], false);
-          name(g, v.symbol, end[0] + 5, Math.max(end[1] - 4, 12), COLOURS[v.name], width);
+          name(g, v.symbol, end[0] + 5, Math.max(end[1] - 4, 12), COLOURS[v.name], width, taken);
         }
       }
       return { canvas: drawing(paint, () => props.plane) };
@@ -173,8 +185,9 @@
         const most = Math.max(4, Math.abs(beyond) * 1.3), end = scale(g, -most, most, 84, width);
         g.fillStyle = "#ffd92e"; g.fillRect(end(0) - 1.5, 72, 3, 19);
         spot(g, end(beyond), 84, 4, beyond < 0 ? "#ff6b5e" : "#ffd92e", false);
-        name(g, "q", end(0) + 5, 70, "#ffd92e", width);
-        name(g, "t", end(beyond) + (beyond < 0 ? -10 : 6), 78, "#ff6b5e", width);
+        const taken = [];
+        name(g, "q", end(0) + 5, 70, "#ffd92e", width, taken);
+        name(g, "t", end(beyond) + (beyond < 0 ? -10 : 6), 78, "#ff6b5e", width, taken);
       }
       return { canvas: drawing(paint, () => props.ruler) };
     },

@@ -52,5 +52,5 @@ def tried(lens, say):
 
 def vector(w, say):
     """A shown direction (3,): its angle off n."""
-    degrees = float(np.degrees(np.arccos(np.clip(w[2], -1.0, 1.0))))
+    degrees = float(np.degrees(np.arctan2(np.hypot(w[0], w[1]), w[2])))  # an arc cosine of nearly 1 is coarse
     return say("lens.vector", degrees=short(round(degrees, 2)), cos=short(w[2]))

@@ -32,7 +32,9 @@ def table(language):
 
 INNER = {"why", "what"}
 # English counts in the plural, but for one thing: "1 paths" is "1 path".
-ONE = re.compile(r"(?<![\d.,/-])(1 (?:path|event|pixel|sample|finding|statement|direction))s\b")
+ONE = re.compile(
+    r"(?<![\d.,/-])(1 (?:path|event|pixel|sample|light sample|bounce|finding|statement|direction))s\b"
+)
 
 
 @cache

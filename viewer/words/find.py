@@ -3,6 +3,7 @@
 WORDS = {
     "en": {
         "find.would": "Searching first traces the picture with every event kept: {paths:,} paths ({spp} per pixel), about {seconds} s.",
+        "find.foreign": "Queries, heat maps and fireflies are of castray's own paths. Those of {name} are shown here: Doctor and Why say where to look.",
         "find.recording": "The recording is searched.",
         "find.tracing": "tracing the picture with every event: {percent} %",
         "find.asking": "searching",
@@ -49,6 +50,7 @@ WORDS = {
         "ui.find_examples": "Examples",
         "ui.find_stops": "Breakpoints: find what is worth stopping at",
         "ui.find_prepare": "Trace",
+        "ui.find_look": "Look it over",
         "ui.find_columns": "Columns there are",
         "ui.find_hits": "Paths found",
         "ui.find_map": "over the picture",
@@ -68,6 +70,7 @@ WORDS = {
     },
     "zh": {
         "find.would": "搜索前会先记录全部事件地追踪整幅图像：{paths:,} 条路径（每像素 {spp} 条），约 {seconds} 秒。",
+        "find.foreign": "查询、热图和亮点只用于 castray 自己的路径。这里显示的是 {name} 的路径：请看“诊断”和“为什么”。",
         "find.recording": "将在这份记录中搜索。",
         "find.tracing": "正在记录全部事件地追踪图像：{percent} %",
         "find.asking": "正在搜索",
@@ -114,6 +117,7 @@ WORDS = {
         "ui.find_examples": "示例",
         "ui.find_stops": "断点：查找值得停下来看的事件",
         "ui.find_prepare": "追踪",
+        "ui.find_look": "浏览",
         "ui.find_columns": "可用的列",
         "ui.find_hits": "找到的路径",
         "ui.find_map": "覆盖在图像上",

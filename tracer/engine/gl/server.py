@@ -23,6 +23,7 @@ class Server:
     """
 
     def __init__(self, auto=False):
+        self.asked = "auto" if auto else "gl"  # the engine, as an option names it
         context = multiprocessing.get_context("spawn")
         self._line, theirs = context.Pipe()
         self._child = context.Process(target=_serve, args=(theirs, auto), daemon=True)
