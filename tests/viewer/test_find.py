@@ -12,7 +12,7 @@ from tracer.trace.asker import ask
 from tracer.trace.query import QueryError
 from viewer import overlay
 from viewer.finding import maps, ranks, survey
-from viewer.finding.finder import SHOWN, Finder
+from viewer.finding.finder import MASK, SHOWN, Finder
 from viewer.history import History
 from viewer.session import Session
 from viewer.worker import Stopped, outcome
@@ -314,3 +314,18 @@ def test_a_scale_has_two_ends_whatever_the_values(values):
     ):
         assert np.isfinite((laid.low, laid.high)).all() and laid.low < laid.high
         assert not laid.log or laid.low > 0.0
+
+
+def test_where_nothing_is_found_the_picture_is_seen_as_it_is(finder):
+    finder.ask("depth >= 0")
+    assert finder.window.covers[-1].title == MASK
+    finder.ask("depth < 0")
+    assert finder.desk.answer["paths"] == 0 and finder.window.covers[-1] is None
+    finder.show_map("rays")
+    finder.ask("SELECT count(*) FROM events")  # which has no pixels: the map stays
+    assert finder.window.covers[-1].title == "map.rays"
+
+
+def test_a_function_that_there_is_not_is_named(finder):
+    finder.ask("luminancy(contribution) > 1")
+    assert "there is no function luminancy" in str(finder.desk.error)

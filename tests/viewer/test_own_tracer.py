@@ -12,6 +12,7 @@ from viewer.checking.learner import settings_of
 from viewer.cli import main
 from viewer.opening import learner
 from viewer.opening.learner import Watched
+from viewer.panels import find
 from viewer.panels import given as panel
 from viewer.session import Session
 from viewer.words import Speaker
@@ -40,12 +41,13 @@ def test_its_paths_are_shown_with_what_the_doctor_says_of_them(file):
     assert np.allclose(session.given.picture.rgb[session.cursor.y, session.cursor.x], session.record.value)
     seen = [e for p in session.record.paths for e in p.events if e.kind.name == "light"]
     assert all(np.isfinite(e.values["f"]).all() for e in seen)  # of those that bring nothing, too
+    assert "my_tracer.py" in find.show(session, Speaker("en"))["foreign"]
     with pytest.raises(tracer.TracerError, match=r"own paths, not for those of my_tracer\.py"):
         session.suppose({(0, "bounce"): (10.0, 10.0)})
     session.alter(
         session.scene, session.settings
     )  # a knob is turned: castray's own tracer shows what it does
-    assert session.given is None
+    assert session.given is None and not find.show(session, Speaker("en"))["foreign"]
 
 
 def test_a_failed_run_keeps_the_last_good_one_and_says_where_it_failed(file):

@@ -4,6 +4,8 @@ import io
 import json
 import re
 from contextlib import redirect_stdout
+from copy import copy
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ import pytest
 import tracer
 from lessons.zoo import planted
 from viewer.cli import main
+from viewer.comparing.rival import Rival
+from viewer.panels import share
 from viewer.session import Session
 from viewer.sharing.files import FILES, Moment
 from viewer.words import Speaker
@@ -95,3 +99,36 @@ def test_a_page_that_cannot_be_written_is_said_before_anything_is_traced(tmp_pat
 def test_without_a_picture_it_says_so(moment):
     with pytest.raises(tracer.TracerError, match="no picture yet"):
         moment.__class__(**{**vars(moment), "picture": None}).file("picture.png")
+
+
+class Watched:
+    """A learner's file that is looked at."""
+
+    file, scene = "mine tracer.py", "cornell"
+
+
+@pytest.mark.parametrize(
+    ("name", "shelf", "against", "again"),
+    [
+        (None, {}, "", "castray view '#scene=cornell_unit&width=4&height=4&spp=2&x=1&y=1&path=0&event=0'"),
+        (None, {"gl": SimpleNamespace(asked="auto")}, "right", "castray view '#... --engine auto"),
+        (None, {}, "my box.png", "castray view '#... --compare 'my box.png'"),
+        ("a.toml", {}, "D01", "castray view a.toml --size 4 4 --spp 2 --compare D01"),
+        (
+            None,
+            {"watched": Watched},
+            "right",
+            "castray view 'mine tracer.py' --scene cornell --compare right",
+        ),
+    ],
+)
+def test_what_starts_the_viewer_again_says_what_no_link_does(name, shelf, against, again):
+    scene = copy(tracer.load("cornell_unit"))
+    scene.name = scene.name if name is None else name
+    session = Session(scene, tracer.Settings(width=4, height=4, spp=2), None)
+    session.stand((1, 1, 0, 0))
+    session.shelf.update(shelf)
+    session.against, session.rivals = against, {"my box.png": Rival("my box.png")}
+    begin, _, end = again.partition("...")
+    said = share.show(session, Speaker("en"))["again"]
+    assert said == again if not end else said.startswith(begin) and said.endswith(end)

@@ -6,8 +6,11 @@ import tracer
 from tracer import what_if
 from tracer.scene_file.change import changed, parse, written
 from viewer.link import parse as parse_link
+from viewer.panels import change
+from viewer.panels import what_if as what_if_panel
 from viewer.session import Session
 from viewer.tuning import TUNED, dials, knobs, tuned, turned
+from viewer.words import Speaker
 
 MOST = 12  # knobs tried of one scene
 
@@ -118,3 +121,18 @@ def test_the_word_what_if_stands_where_the_supposed_path_has_left_the_other(glas
     line = vertices(there, 3.0)
     assert strokes.parting(session.path, there) == pytest.approx((line[1] + line[2]) / 2, rel=1e-5)
     assert strokes.parting(session.path, session.path) == vertices(session.path, 3.0)[-1].tolist()
+
+
+def test_what_is_supposed_is_said_in_words(glass):
+    session = Session(glass, tracer.Settings(width=16, height=16, spp=2, max_depth=4), tracer.load)
+    session.stand((5, 6, 0, 0))
+    session.suppose(what_if.parse(["0.light=0.5,0.9,0.1"]))
+    (one,) = what_if_panel.show(session, Speaker("en"))["supposed"]
+    assert one == {"key": "0.light", "text": "light sample, depth 0: u₀ = 0.5, u₁ = 0.9, u₂ = 0.1"}
+
+
+def test_a_depth_without_a_limit_is_said_so():
+    session = Session(tracer.load("furnace"), tracer.Settings(width=4, height=4, spp=1), None)
+    session.stand((0, 0, 0, 0))
+    notes = {dial["key"]: dial["note"] for dial in change.show(session, Speaker("en"))["dials"]}
+    assert notes["max_depth"] == "unlimited" and not any(notes[k] for k in notes.keys() - {"max_depth"})

@@ -304,3 +304,11 @@ def test_no_length_is_said_in_a_unit_that_scenes_do_not_have():
         assert said == {}
     assert {unit_of(field) for kind in KINDS for field in kind.fields} >= {"", "1/sr"}
     assert "m" not in {unit_of(field) for kind in KINDS for field in kind.fields}
+
+
+def test_the_one_light_sample_of_a_path_is_one(pixels):
+    for scene, _, path in paths(pixels):
+        samples = sum(event.kind.name == "light" for event in path.events)
+        said = why_dead(path, scene, SAY)
+        assert "1 light sample" not in said
+        assert not said or ("its one light sample" in said) == (samples == 1)

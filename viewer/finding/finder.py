@@ -21,6 +21,7 @@ class Desk:
     tracing: float | None = None  # share of the survey that is done
     waiting: list = field(default_factory=list)  # what is to be done with the survey when it is there
     asking: bool = False
+    looking: bool = False  # over the survey, for the histogram and the fireflies
     text: str = ""  # what was asked last
     error: TracerError | None = None
     answer: dict | None = None
@@ -171,10 +172,10 @@ class Finder:
 
     def _look_over(self, desk):
         """What is shown of every survey: the histogram and the fireflies."""
-        there = desk.survey
+        there, desk.looking = desk.survey, True
 
         def done(found):
-            desk.histogram, desk.fireflies = found
+            desk.looking, desk.histogram, desk.fireflies = False, *found
             self._say()
 
         self.asking.do(lambda: (ranks.histogram(there), ranks.fireflies(there)), done, self._failed(desk))
@@ -215,7 +216,8 @@ class Finder:
 
     def _failed(self, desk):
         def failed(error):
-            desk.tracing, desk.asking, desk.waiting, desk.error = None, False, [], error
+            desk.tracing, desk.waiting, desk.error = None, [], error
+            desk.asking = desk.looking = False
             self._uncover()
             self._say()
 

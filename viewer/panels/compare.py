@@ -1,5 +1,7 @@
 """Compare: this picture, a, beside another one, b; and the selected path beside its twin."""
 
+from pathlib import Path
+
 from lessons.zoo import FAMILIES
 from tracer.recorder import number
 from viewer import diff
@@ -93,7 +95,7 @@ def show(session, say):
 
 def _choices(session, say):
     """What can be compared with, in groups."""
-    files = [{"name": name, "label": name} for name in session.rivals]
+    files = [{"name": name, "label": Path(name).name} for name in session.rivals]
     groups = [{"name": say("compare.files"), "members": files}] if files else []
     groups.append(
         {"name": say("compare.tracers"), "members": [{"name": RIGHT, "label": say("compare.right")}]}

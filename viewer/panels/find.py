@@ -79,7 +79,7 @@ def show(session, say):
         "text": desk.text,
         "examples": list(EXAMPLES),
         "stops": stops,
-        "busy": desk.asking or desk.tracing is not None,
+        "busy": desk.asking or desk.looking or desk.tracing is not None,
         "status": _status(session, desk, say),
         "can_prepare": there is None and desk.tracing is None,
         "error": desk.error and _error(desk, say),
