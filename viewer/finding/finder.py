@@ -175,7 +175,8 @@ class Finder:
         there, desk.looking = desk.survey, True
 
         def done(found):
-            desk.looking, desk.histogram, desk.fireflies = False, *found
+            desk.looking = False
+            desk.histogram, desk.fireflies = found
             self._say()
 
         self.asking.do(lambda: (ranks.histogram(there), ranks.fireflies(there)), done, self._failed(desk))
