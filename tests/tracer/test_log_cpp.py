@@ -77,6 +77,8 @@ DOUBLE = ("-DDOUBLE", "-DCASTRAY_BITS=64", "-DCASTRAY_DIGITS=17")
         ("none", 2, ("-DCASTRAY_DIGITS=6",)),
         ("none", 2, DOUBLE),
         ("none", 2, ('-DDECLARED=""',)),
+        ("none", 1, ('-DDECLARED=""',)),
+        ("none", 0, ('-DDECLARED=""',)),
     ],
 )
 def test_a_right_log_gives_no_findings_however_much_it_says(logged, cornell, bug, level, options):

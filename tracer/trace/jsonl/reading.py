@@ -6,7 +6,18 @@ import numpy as np
 
 from tracer.events import KINDS
 from tracer.settings import TracerError
-from tracer.trace.jsonl import calls, conventions, flat, geometry, header, lines, peek, places, told
+from tracer.trace.jsonl import (
+    calls,
+    conventions,
+    flat,
+    geometry,
+    header,
+    hemisphere,
+    lines,
+    peek,
+    places,
+    told,
+)
 from tracer.trace.jsonl.compact import compact
 from tracer.trace.jsonl.content import Read
 from tracer.trace.trace import Table, Trace
@@ -146,6 +157,10 @@ def _of_calls(read, scene, exact, settings, read_off):
     chain, where = peek.peeked(chain, where, exact)
     known = settings.roulette != "off" or "roulette" in read.header.options
     sampled = "hemisphere" in read.header.options or settings.hemisphere == "uniform"
+    if not sampled and not chain.given("bounce.pdf").any():
+        settings = replace(settings, hemisphere=hemisphere.shown(chain, where, exact) or settings.hemisphere)
+        read_off["hemisphere"] = settings.hemisphere
+        scene, exact = scene.at(settings), exact.at(replace(settings, precision=64))
     telling = told.Telling(chain, where, exact, scene.dtype, settings, read.header.eps, known, sampled)
     tables = telling.tables()
     root = telling.rows["camera"]
