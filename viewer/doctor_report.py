@@ -13,6 +13,7 @@ from viewer.words import Speaker
 
 _STYLE = {"fired": "bold red", "clean": "green", "not_testable": "dim"}
 _WIDEST = 100
+_OF_THE_POINT = ("light.wi", "light.distance", "light.primitive", "light.light")
 
 
 def print_diagnosis(diagnosis, trace, console=None):
@@ -28,13 +29,13 @@ def print_diagnosis(diagnosis, trace, console=None):
         console.print(Text(say("doctor.unjudged"), style="bold yellow"))
     elif not diagnosis.findings:
         console.print(Text(say("doctor.nothing"), style="bold green"))
-        if trace.culled and (more := lacking(diagnosis.rules)):  # of a log
-            console.print(Text(say("doctor.more", names=say.listed(*more)), style="yellow"))
     for number, finding in enumerate(diagnosis.findings):
         if number == 0:
             _print_first(finding, say, console)
         else:
             _print_other(finding, say, console)
+    if trace.culled and (more := lacking(diagnosis.rules)):  # of a log
+        console.print(Text(say("doctor.more", names=say.listed(*more)), style="yellow"))
     console.print()
     _print_rules(diagnosis.rules, say, console)
 
@@ -47,6 +48,8 @@ def lacking(verdicts, most=4):
         if verdict.state == "not_testable" and "." in verdict.missing
         for name in re.findall(r"^\w+\.\w+(?=[,]|$)|(?<=, )\w+\.\w+", verdict.missing)
     )
+    if names["light.q"]:  # which says all of them
+        names -= Counter(dict.fromkeys(_OF_THE_POINT, names.total()))
     return [name for name, count in names.most_common(most) if count > 1]
 
 
@@ -181,10 +184,17 @@ def _print_counts(verdicts, say, console):
 
 
 def _print_untestable(verdicts, say, console):
-    """What could not be judged, and what is missing for it."""
-    lacking = {}
+    """What could not be judged, and what is missing for it; what each law would have worked out itself is
+    one row."""
+    lacking, own = {}, []
     for verdict in verdicts:
-        lacking.setdefault(verdict.missing, []).append(verdict.rule.id)
+        if verdict.missing == f"{verdict.rule.needs[0]} is worked out by this law":
+            own.append(verdict.rule.id)
+        else:
+            lacking.setdefault(verdict.missing, []).append(verdict.rule.id)
+    if own:
+        said = say("doctor.untestable_own", rules=say.listed(*own))
+        console.print(Folded(Text(said, style="dim")))
     for missing, rules in lacking.items():
         said = say("doctor.untestable", missing=say.lacking(missing), rules=say.listed(*rules))
         console.print(Folded(Text(said, style="dim")))

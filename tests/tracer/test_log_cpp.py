@@ -86,6 +86,17 @@ def test_a_right_log_gives_no_findings_however_much_it_says(logged, cornell, bug
     assert findings(path, cornell) == []
 
 
+def test_who_looks_ahead_may_log_roulette_only_where_it_lets_go_on(logged, cornell):
+    path, _ = logged("PEEK", 2, seed=7)
+    lines = [json.loads(line) for line in path.read_text(encoding="ascii").splitlines()]
+    for call in lines[1:]:
+        call.pop("bounce.wi", None)
+        if not call.pop("roulette.survived", True):
+            del call["roulette.probability"]
+    path.write_text("\n".join(json.dumps(line) for line in lines) + "\n", encoding="ascii")
+    assert findings(path, cornell) == []
+
+
 @pytest.mark.parametrize(
     ("bug", "found"),
     [

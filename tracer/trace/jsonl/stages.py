@@ -39,16 +39,18 @@ class Stages:
         told_lost = np.zeros(chain.path.size, bool)
         if chain.given("roulette.survived").any():
             told_lost = chain.given("roulette.survived") & (chain.columns.values["roulette.survived"] == 0)
-        bounced = ~chain.last | (chain.any("bounce.") & ~told_lost)
+        bounced = ~chain.last | (chain.given("bounce.wi") & ~told_lost)
         guessed = chain.last & places.hit & ~self.dark & worked & np.isfinite(self.q)
         if chain.given("roulette.survived").any():
             guessed &= ~chain.given("roulette.survived")
         # Who looks ahead and calls himself at dark surfaces only has no calls that meet a lamp or nothing:
-        # then what ends a path is not to be told from roulette, unless that is logged.
+        # then what ends a path is not to be told from roulette, unless its outcome is logged.
         shining = self.scene.light_of.take(np.maximum(places.primitive, 0)) >= 0
         inner = chain.level > 0
         seen = np.count_nonzero(inner & (~places.hit | shining)) > _LEAKS * np.count_nonzero(inner)
-        self.ends_known = bool(chain.any("roulette.").any()) or bool(seen) or not self.scene.has_lights
+        self.ends_known = (
+            bool(chain.given("roulette.survived").any()) or bool(seen) or not self.scene.has_lights
+        )
         guessed &= self.ends_known
         self.lost = (told_lost & chain.last) | guessed
         self.bounced = bounced & ~self.lost & places.hit
