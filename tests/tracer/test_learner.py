@@ -184,6 +184,14 @@ def test_a_random_number_remembers_with_what_it_was_compared():
     assert u.terms[0][1][0][0].of == {"against": 0.8, "outcome": True}
 
 
+def test_what_is_made_from_a_random_number_is_no_roulette():
+    u = named("random", 0.25)
+    assert max(0.0, 1.0 - u).value == 0.75 and 2.0 * u < 1.0
+    ((leaf, _),) = u.terms[0][1]
+    assert "against" not in leaf.of
+    assert u < 0.8 and leaf.of["against"] == 0.8
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

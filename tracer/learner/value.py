@@ -141,8 +141,9 @@ class Value(ForNumPy):
         """The comparison; a random number remembers with what it was compared, and how that went."""
         plain = plain_of(other)
         answer = bool(way(self.value, plain))
-        for _, powers in self.terms:
-            if len(powers) == 1 and powers[0][0].kind == "random":
+        if len(self.terms) == 1:  # not of what was made from it, as in max(0, 1 - u)
+            ((factor, powers),) = self.terms
+            if np.all(factor == 1.0) and len(powers) == 1 and powers[0][0].kind == "random":
                 powers[0][0].of.update(against=float(plain), outcome=answer)
         return answer
 
