@@ -42,7 +42,8 @@ class Surface:
         vertices, faces = scene.shapes[index].triangles()
         self.vertices, self.faces = np.asarray(vertices, float), np.asarray(faces, int)
         self.wall = _is_wall(self.vertices, low, high)
-        self.lamp = scene.is_light(index)
+        # A room whose walls shine stays a room: the paths could not be seen before so much light.
+        self.lamp = scene.is_light(index) and not _encloses(self.vertices, low, high)
         self.colour = LAMP if self.lamp else tuple(DIMMED * srgb(scene.display_colour(index)))
         self.opacity = 1.0 if self.wall else 0.3 if scene.is_see_through(index) else 0.55
         if self.wall:
@@ -92,7 +93,7 @@ def walls(surfaces, low, high):
     for surface in surfaces:
         if surface.wall:
             mine_low, mine_high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-            around = np.all(mine_high - mine_low > 0.9 * (high - low))
+            around = _encloses(surface.vertices, low, high)
             for axis in np.flatnonzero(around | (mine_high - mine_low < slack)):
                 found |= {(int(axis), float(mine_low[axis])), (int(axis), float(mine_high[axis]))}
     return found
@@ -127,7 +128,12 @@ def _is_wall(vertices, low, high):
     slack = 0.01 * np.linalg.norm(high - low)
     mine_low, mine_high = vertices.min(axis=0), vertices.max(axis=0)
     flat = (mine_high - mine_low < slack) & ((mine_low - low < slack) | (high - mine_high < slack))
-    return bool(flat.any() or np.all(mine_high - mine_low > 0.9 * (high - low)))
+    return bool(flat.any()) or _encloses(vertices, low, high)
+
+
+def _encloses(vertices, low, high):
+    """Whether a shape stands around everything else."""
+    return bool(np.all(np.ptp(vertices, axis=0) > 0.9 * (high - low)))
 
 
 def _pressed(triangles, planes, size):

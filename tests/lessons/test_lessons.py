@@ -61,17 +61,19 @@ def texts(number, language):
 @each_lesson
 def test_a_lesson_has_all_that_its_form_asks_for(number):
     it = lesson(number)
-    assert 5 <= it.minutes <= 30
-    assert it.tasks and it.formulas
+    assert 10 <= it.minutes <= 20
+    assert it.tasks and it.formulas and it.references
+    assert any("bug" in moment.settings for moment in it.moments.values())
     assert set(it.bugs) <= zoo.ZOO.keys()
     for task in it.tasks.values():
         assert task.kind in KINDS
         assert len(task.wrong) >= 3
     for words in it.words.values():
         assert words.title
+        assert any(re.search(r"^## (Change it|改一改)$", text, re.MULTILINE) for _, text in words.texts)
         assert list(words.tasks) == list(it.tasks)
         for task in words.tasks.values():
-            assert task.ask and task.hints and task.solution
+            assert task.ask and len(task.hints) > 1 and task.solution
             assert bool(task.choices) == (it.tasks[task.id].kind == "choice")
             assert all(1 <= k <= len(it.tasks[task.id].wrong) for k in task.wrong)
     assert not set(it.tasks) & {name for words in it.words["en"].tasks.values() for name in words.choices}

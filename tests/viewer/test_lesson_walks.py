@@ -18,12 +18,6 @@ BEHIND = """id => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def page(newcomer, tab):
-    """One tab of one viewer, of somebody who has done nothing yet."""
-    return tab(newcomer("cornell_unit", *SMALL).address)
-
-
 class Mouse:
     """Points and clicks; types only what has to be typed."""
 
@@ -118,8 +112,15 @@ class Keyboard:
             self.page.keyboard.press("ArrowDown" if number > now else "ArrowUp")
 
 
-def give(hand, page, run, task, said):
+@pytest.fixture(scope="module", params=[Mouse, Keyboard], ids=["mouse", "keyboard"])
+def hand(request, newcomer, tab):
+    """Somebody who has done nothing yet, at one tab of a viewer of their own."""
+    return request.param(tab(newcomer("cornell_unit", *SMALL).address))
+
+
+def give(hand, run, task, said):
     """Give one answer, as the task asks for it."""
+    page = hand.page
     if task.kind in PLACES:
         hand.press(f"there-{task.id}")
         there = of_moment(run.lesson.moments[task.at]).write()
@@ -137,12 +138,10 @@ def give(hand, page, run, task, said):
     hand.press(f"check-{task.id}")
 
 
-@pytest.mark.parametrize(
-    ("number", "hand"), [(1, Mouse), (4, Keyboard), (13, Keyboard), (14, Mouse), (21, Mouse)]
-)
-def test_a_new_user_solves_a_lesson(page, number, hand):
+@pytest.mark.parametrize("number", [1, 4, 13, 14, 21])
+def test_a_new_user_solves_a_lesson(hand, number):
     """One wrong answer, the hint that it brings, and then every task right."""
-    it, run, hand = lesson(number), Run(lesson(number)), hand(page)
+    it, run, page = lesson(number), Run(lesson(number)), hand.page
     hand.turn_to_lessons()
     if page.get_by_test_id("lesson-list").count():
         hand.press("lesson-list")
@@ -151,10 +150,10 @@ def test_a_new_user_solves_a_lesson(page, number, hand):
     page.get_by_test_id("lesson-title").filter(has_text=it.words["en"].title).wait_for()
     first = next(iter(it.tasks.values()))
     page.get_by_test_id(f"task-{first.id}").wait_for()
-    give(hand, page, run, first, answer.spelled(answer.wrong(run, first)[0]))
+    give(hand, run, first, answer.spelled(answer.wrong(run, first)[0]))
     page.locator(f"[data-testid=reply-{first.id}][data-right=false]").wait_for()
     page.get_by_test_id(f"hints-{first.id}").first.wait_for()
     for task in it.tasks.values():
-        give(hand, page, run, task, answer.spelled(answer.right(run, task)))
+        give(hand, run, task, answer.spelled(answer.right(run, task)))
         page.locator(f"[data-testid=task-{task.id}][data-solved=true]").wait_for()
     page.get_by_text("All tasks of this lesson are solved.").wait_for()

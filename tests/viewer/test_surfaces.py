@@ -23,3 +23,10 @@ def test_balls_on_a_wide_floor_lose_no_more_than_where_they_stand():
 def test_boxes_on_the_floor_are_drawn_without_their_bottoms():
     missing = lacking("cornell_unit")
     assert missing["small_box"] == 2 and missing["floor"] == 0
+
+
+def test_a_room_whose_walls_shine_is_as_dim_as_any_other_and_a_lamp_is_not():
+    (room,) = surfaces(tracer.load("furnace"))
+    assert not room.lamp and max(room.colour) < 0.7
+    lamps = [s for s in surfaces(tracer.load("cornell_unit")) if s.lamp]
+    assert [(s.name, max(s.colour)) for s in lamps] == [("lamp", 1.0)]
