@@ -73,6 +73,9 @@ def test_the_row_says_an_error_without_its_name_and_in_chinese():
     )
     assert report.finding(failed, SAY).startswith("its process ended")
     assert report.finding(failed, Speaker("zh")).startswith("它的进程以代码 7 结束")
+    slip = Row("b.py", FAILED, error="b.py:19: '(' was never closed", path="a/b.py")
+    assert report.finding(slip, SAY) == "line 19: '(' was never closed"
+    assert report.finding(slip, Speaker("zh")).startswith("第 19 行：")
 
 
 @pytest.mark.slow
@@ -162,7 +165,8 @@ def test_the_command_writes_table_csv_and_page_and_says_1(folder, tmp_path):
     written = ("--csv", tmp_path / "t.csv", "--html", tmp_path / "t.html")
     ran = castray("check", folder, *few, *written, env={"COLUMNS": "80"})
     assert ran.returncode == 1, ran.stderr
-    for words in ("wrong.py", "D10", "D06", "not judged", "looks wrong", "notes.txt", "castray check "):
+    said = ("wrong.py", "D10", "D06", "not judged", "looks wrong", "line 1:", "notes.txt", "castray check ")
+    for words in (*said, "Written: "):
         assert words in ran.stdout
     assert "很长" in (tmp_path / "t.csv").read_text(encoding="utf-8")
     assert 'data-state="findings"' in (tmp_path / "t.html").read_text(encoding="utf-8")

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 from html import escape
 from pathlib import Path, PurePath
 
@@ -41,7 +42,7 @@ def _parts(kinds, say):
 def finding(row, say):
     """What is wrong, in short."""
     if row.state == FAILED:
-        return _without_name(say.error(row.error), row)
+        return _without_name(say.error(row.error), row, say)
     if row.found is None:
         return say("check.unknown") if row.state == MAYBE else ""
     if isinstance(row.found, Hypothesis):
@@ -56,13 +57,15 @@ def finding(row, say):
     return f"{named} {bug_title(row.found.bug, say)}"
 
 
-def _without_name(said, row):
-    """An error without the file that it is of: the row has it."""
+def _without_name(said, row, say):
+    """An error without the file that it is of, which the row has; a line's number is called one."""
     for name in (row.path, PurePath(row.path).name):
         for mark in (":", "\N{FULLWIDTH COLON}"):
             if name and said.startswith(f"{name}{mark}"):
-                return said.removeprefix(f"{name}{mark}").strip()
-    return said
+                said = said.removeprefix(f"{name}{mark}").strip()
+                break
+    line = re.match(r"(\d+)[:\N{FULLWIDTH COLON}]\s*(.*)", said)
+    return say("check.line", line=line[1], error=line[2]) if line else said
 
 
 def certainty(row, say):

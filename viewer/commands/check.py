@@ -115,6 +115,8 @@ def _folder(folder, scene, seconds, csv, html, options, json):
         print_json(report.as_dict(rows, folder, scene, say))
     else:
         report.print_rows(rows, say)
+        if csv is not None or html is not None:
+            print("\n" + say("check.written", files=say.listed(*map(str, filter(None, (csv, html))))))
     return 1 if any(row.state in (WRONG, FAILED) for row in rows) else 0
 
 

@@ -23,6 +23,8 @@ WORDS = {
         "check.skipped_files": "skipped, since it is neither tracer (.py) nor log (.jsonl) nor picture: {files}",
         "check.proof": "The proof:",
         "check.judging": "judging",
+        "check.line": "line {line}: {error}",
+        "check.written": "Written: {files}",
     },
     "zh": {
         "check.title": "{folder}，在 {scene} 上检验",
@@ -46,5 +48,7 @@ WORDS = {
         "check.skipped_files": "已跳过，既不是追踪器（.py），也不是日志（.jsonl）或图像：{files}",
         "check.proof": "证明：",
         "check.judging": "正在检验",
+        "check.line": "第 {line} 行：{error}",
+        "check.written": "已写入：{files}",
     },
 }

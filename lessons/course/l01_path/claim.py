@@ -17,6 +17,7 @@ def experiment(run):
     joins(path), grows(path)
     assert np.isclose(np.mean(red), pixel.value[0], rtol=1e-6)
     assert np.isclose(brought + run.event("first")["contribution"][0], path.radiance[0], rtol=1e-6)
+    assert 1.0 / 3.0 < brought / np.sum(red) < 0.5  # "more than a third"
     lost = run.event("mistake")
     from_vertex = np.linalg.norm(np.subtract(lost["p"], run.path("mistake").events[1].values["p"]))
     assert from_vertex > 2.0 * lost["t"]

@@ -22,6 +22,9 @@ def experiment(run):
     s, p, _ = fresnel.dielectric(np.cos(np.radians(angle)), WATER)
     assert p < 1e-12 < s
     diamond = float(fresnel.head_on(DIAMOND, 0.0))
+    assert round(head_on, 2) == 0.04 and diamond > 4.0 * fresnel.head_on(
+        1.5, 0.0
+    )  # as the text has it in words
     return (
         {"coat": coat, "head_on": head_on, "rim_angle": degrees(run.event("rim_hit")["cos_wo"])}
         | {"water": WATER, "brewster": angle, "from_surface": 90.0 - angle, "s_there": float(s)}

@@ -16,6 +16,11 @@ def experiment(run):
     brings = e["f"][GREEN] * e["Le"][GREEN] * e["cos"] * cos_light / (r * r * e["pdf_area"])
     assert np.isclose(brings, e["contribution"][GREEN], rtol=1e-5)
 
+    # "more than twice as far", "sixty lamps"
+    assert (
+        2.0 * r < run.event("floor")["distance"] < 3.0 * r and len(run.scene("many_lights").light_names) == 60
+    )
+
     by_area, by_angle = (run.wave(m, spp=SPP).radiance[GREEN].astype(float) for m in ("start", "angle"))
     error = np.hypot(by_area.std(), by_angle.std()) / np.sqrt(SPP)
     assert abs(by_area.mean() - by_angle.mean()) < 5.0 * error

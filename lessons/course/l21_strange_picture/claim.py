@@ -27,6 +27,8 @@ ROWS = {"r": "", "d": "D01", "m": "D06", "dm": "D01,D06"}  # without E01, by the
 
 def experiment(run):
     """Luminance over the correct one: ROW_REGION, with an e before the rows that have E01 as well."""
+    albedo = run.event("start")["albedo"]
+    assert 9.0 < albedo[0] / albedo[1] < 10.0  # "nearly ten times"
     rows = {row: regions(run, SOME, bugs) for row, bugs in ROWS.items()}
     right = {name: luminance(light).mean() for name, light in rows["r"].items()}
     salt = regions(run, MANY, integrator="walk")
