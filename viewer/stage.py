@@ -15,7 +15,17 @@ from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 from viewer import hemisphere
 from viewer.company import COMPANIONS
 from viewer.solids import EMPTY
-from viewer.surfaces import BACKGROUND, COLOURS, VIEW_ANGLE, Surface, bounds, surfaces, viewpoint, walls
+from viewer.surfaces import (
+    BACKGROUND,
+    COLOURS,
+    VIEW_ANGLE,
+    Surface,
+    bounds,
+    sight,
+    surfaces,
+    viewpoint,
+    walls,
+)
 from viewer.traces import Strokes
 
 
@@ -113,7 +123,8 @@ class Stage:
         """Put in another scene's surfaces and look at it."""
         for _, layer in self._surfaces:
             self.renderer.RemoveActor(layer.actor)
-        self._bounds = low, high = bounds(scene)
+        self._bounds = bounds(scene)
+        low, high = sight(scene)
         self.size = float(np.linalg.norm(high - low))
         self._surfaces = [(s, layer_of(s, self.renderer)) for s in surfaces(scene)]
         self._draws = Strokes(self.size)
@@ -127,8 +138,9 @@ class Stage:
             return
         places = {shape.name: index for index, shape in enumerate(scene.shapes)}
         fitted, planes = [], walls([surface for surface, _ in self._surfaces], *self._bounds)
+        whole = float(np.linalg.norm(np.subtract(*self._bounds)))
         for before, layer in self._surfaces:
-            surface = Surface(scene, places[before.name], *self._bounds).beside(planes, self.size)
+            surface = Surface(scene, places[before.name], *self._bounds).beside(planes, whole)
             if surface.vertices.tobytes() != before.vertices.tobytes():
                 layer.show(surface.vertices, surface.faces)
             layer.look(surface.colour, surface.opacity)

@@ -8,6 +8,7 @@ BACKGROUND = (0.055, 0.062, 0.078)
 VIEW_ANGLE = 30.0
 LAMP = (1.0, 0.97, 0.85)
 FEW = 256  # so many faces are looked at one by one
+WIDE = 8.0  # a floor that reaches so many times as far as what stands on it is ground
 DIMMED = 0.62  # surfaces step back, so that the paths stand out
 
 
@@ -105,8 +106,26 @@ def bounds(scene):
     return low, high
 
 
+def sight(scene):
+    """The corners of what one looks at: of what stands on wide ground, of everything where there is no such
+    ground."""
+    low, high = bounds(scene)
+    shapes = [np.asarray(shape.triangles()[0], float) for shape in scene.shapes]
+    solid = [
+        vertices
+        for vertices in shapes
+        if np.ptp(vertices, axis=0).min() > 0.01 * np.ptp(vertices, axis=0).max()
+    ]
+    if not solid:
+        return low, high
+    points = np.concatenate(solid)
+    least, most = points.min(axis=0), points.max(axis=0)
+    wide = np.linalg.norm(high - low) > WIDE * np.linalg.norm(most - least)
+    return (least, most) if wide else (low, high)
+
+
 def viewpoint(scene, low, high):
-    """Where to look from: the scene's own camera, stepped aside and back until everything is seen."""
+    """Where to look from: the scene's own camera, stepped aside and back until a box is seen."""
     camera = scene.camera
     forward, up = np.asarray(camera.forward, float), np.asarray(camera.up, float)
     side = np.cross(forward, up)

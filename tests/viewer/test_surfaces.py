@@ -1,7 +1,9 @@
 """What the 3D view draws of a scene: whole things, but for what lies flat on a wall."""
 
+import numpy as np
+
 import tracer
-from viewer.surfaces import surfaces
+from viewer.surfaces import bounds, sight, surfaces, viewpoint
 
 
 def lacking(name):
@@ -30,3 +32,13 @@ def test_a_room_whose_walls_shine_is_as_dim_as_any_other_and_a_lamp_is_not():
     assert not room.lamp and max(room.colour) < 0.7
     lamps = [s for s in surfaces(tracer.load("cornell_unit")) if s.lamp]
     assert [(s.name, max(s.colour)) for s in lamps] == [("lamp", 1.0)]
+
+
+def test_one_looks_at_what_stands_on_wide_ground_and_at_a_whole_room():
+    far = {}
+    for name in ("sky", "cornell"):
+        scene = tracer.load(name)
+        view = viewpoint(scene, *sight(scene))
+        away = np.linalg.norm(np.subtract(view["position"], view["focalPoint"]))
+        far[name] = away / np.linalg.norm(np.subtract(*bounds(scene)))
+    assert far["sky"] < 0.2 and far["cornell"] > 1.0

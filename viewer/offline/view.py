@@ -9,7 +9,7 @@ import numpy as np
 from tracer.picture import to_srgb
 from viewer import hemisphere
 from viewer.caption import caption, light_outcome
-from viewer.surfaces import BACKGROUND, COLOURS, bounds, surfaces, viewpoint
+from viewer.surfaces import BACKGROUND, COLOURS, sight, surfaces, viewpoint
 from viewer.traces import NAMES, Strokes, here, light_samples, vertices, vertices_until
 
 WORDS = ("picture", "stage", "home", "first", "previous", "next", "last", "up", "down", "no_webgl")
@@ -51,7 +51,7 @@ class View:
 
     def _scene(self, scene):
         """Number and size of a scene."""
-        low, high = bounds(scene)
+        low, high = sight(scene)
         size = float(np.linalg.norm(high - low))
         if id(scene) not in self._scenes:
             found = {"size": size, "camera": viewpoint(scene, low, high)}

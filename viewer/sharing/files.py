@@ -18,7 +18,7 @@ from viewer.hemisphere import Hemisphere
 from viewer.offline import page
 from viewer.replay import replayed
 from viewer.sharing.report import report
-from viewer.surfaces import bounds
+from viewer.surfaces import sight
 from viewer.understanding.lens import SHOWN
 from viewer.understanding.lens import here as lens_here
 
@@ -93,7 +93,7 @@ def _path(moment):
 
 def _view(moment):
     m, rgb = moment, None if moment.picture is None else moment.picture.rgb
-    size = float(np.linalg.norm(np.subtract(*bounds(m.scene))))
+    size = float(np.linalg.norm(np.subtract(*sight(m.scene))))
     over = Hemisphere(m.lens, size, m.say) if m.lens else None
     return page(m.scene, m.record, m.cursor, m.say, rgb, over).encode("utf-8")
 
