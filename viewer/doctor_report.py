@@ -88,6 +88,12 @@ def counted(finding, say):
     return {"title": title, "count": finding.count, "checked": finding.checked}
 
 
+def following(finding, findings, say):
+    """What a finding that is no cause says on a page: it follows from another, which is told by its title."""
+    cause = next((counted(f, say)["title"] for f in findings if f.rule == finding.follows), finding.follows)
+    return say("doctor.follows", cause=say("doctor.quoted", title=cause), **counted(finding, say))
+
+
 def _said(finding, say):
     """Names and texts, line by line."""
     yield "law", Text(say.optional(f"law.{finding.rule}", finding.law))

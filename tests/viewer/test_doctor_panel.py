@@ -54,7 +54,7 @@ def test_the_panel_shows_what_castray_doctor_says(page):
         rules = page.get_by_test_id(f"doctor-{name}").get_attribute("data-rules")
         assert int(rules) == sum(rule["state"] == state for rule in said["rules"])
     page.get_by_test_id("finding-where-0").click()
-    page.get_by_test_id("legend-title").filter(has_text=said["findings"][0]["rule"]).wait_for()
+    page.get_by_test_id("legend-title").filter(has_text=said["findings"][0]["title"]).wait_for()
     page.get_by_test_id("uncover").click()
 
 

@@ -14,6 +14,7 @@ from viewer.opening import learner
 from viewer.opening.learner import Watched
 from viewer.panels import find
 from viewer.panels import given as panel
+from viewer.panels import what_if
 from viewer.session import Session
 from viewer.words import Speaker
 
@@ -41,6 +42,7 @@ def test_its_paths_are_shown_with_what_the_doctor_says_of_them(file):
     assert np.allclose(session.given.picture.rgb[session.cursor.y, session.cursor.x], session.record.value)
     seen = [e for p in session.record.paths for e in p.events if e.kind.name == "light"]
     assert all(np.isfinite(e.values["f"]).all() for e in seen)  # of those that bring nothing, too
+    assert "my_tracer.py" in what_if.show(session, Speaker("zh"))["note"]
     assert "my_tracer.py" in find.show(session, Speaker("en"))["foreign"]
     with pytest.raises(tracer.TracerError, match=r"own paths, not for those of my_tracer\.py"):
         session.suppose({(0, "bounce"): (10.0, 10.0)})
@@ -101,3 +103,13 @@ def test_a_saved_file_is_run_again_and_the_place_is_kept(serve, visit, file):
     assert said.count() == 0 and page.locator("[data-testid=doctor] [data-rule=light-term]").count() == 0
     assert page.locator("[data-testid=event-table]").get_attribute("data-pixel") == "4,3"
     assert page.errors == []
+
+
+@pytest.mark.slow
+def test_a_right_tracer_opens_where_light_arrives(tmp_path):
+    file = tmp_path / "right.py"
+    file.write_text(TEXT, encoding="utf-8")
+    session = Session(tracer.load("cornell"), SETTINGS, None)
+    session.give(learner.given(file, "cornell", SETTINGS))
+    assert not session.desk["doctor"].diagnosis.causes
+    assert np.any(session.event.values["contribution"] > 0)

@@ -5,6 +5,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import tracer
 from lessons.course import about
 from tracer.trace import Trace, pixels
@@ -50,12 +52,23 @@ class Given:
 
     @property
     def start(self):
-        """(x, y, path, event) to open at: the event that proves the first finding, else the first path."""
+        """(x, y, path, event) to open at: the event that proves the first finding, else where light
+        arrives."""
         for finding in self.chart.diagnosis.causes:
             first: Any = finding.first
             if first is not None and first.get("step") is not None:
                 return self.place(first)
-        return int(self.trace.paths["x"][0]), int(self.trace.paths["y"][0]), 0, 0
+        x, y, sample = (int(self.trace.paths[name][self._giving]) for name in ("x", "y", "sample"))
+        return *self.place({"x": x, "y": y, "sample": sample, "step": None})[:3], None
+
+    @property
+    def _giving(self):
+        """Which path is worth opening with: that of the light sample that gives most, else the brightest."""
+        lit = self.trace.tables.get("light")
+        added = None if lit is None else lit["contribution"]
+        if added is not None and np.any(added > 0):
+            return int(lit.path[np.argmax(np.nan_to_num(added).sum(axis=0))])
+        return int(np.argmax(np.nan_to_num(self.trace.paths["radiance"]).sum(axis=0)))
 
     def place(self, first):
         """(x, y, path, event) of what a finding names: a log may lack some samples."""

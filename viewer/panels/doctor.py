@@ -2,7 +2,7 @@
 
 from lessons.course import lesson
 from viewer import examining, picture_examining
-from viewer.doctor_report import bug_title, bugs, chance, counted, equation, place, wrong_code
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, following, place, wrong_code
 from viewer.examining import Chart, Examiner
 from viewer.panels.panel import Panel
 from viewer.picture_examining import Guesser
@@ -62,7 +62,9 @@ def show(session, say):
     shown["picture"] = picture_examining.shown(session, say)
     findings = list(enumerate(diagnosis.findings)) if diagnosis else []
     shown["causes"] = [_cause(k, f, chart, say) for k, f in findings if f.follows is None]
-    shown["following"] = [_following(k, f, say) for k, f in findings if f.follows is not None]
+    shown["following"] = [
+        _following(k, f, diagnosis.findings, say) for k, f in findings if f.follows is not None
+    ]
     rules = diagnosis.rules if diagnosis else ()
     shown["clean"] = [_rule(v, say) for v in rules if v.state == "clean"]
     shown["untestable"] = [_rule(v, say) for v in rules if v.state == "not_testable"]
@@ -117,8 +119,8 @@ def _lesson(number, say):
     return {"number": number, "title": say("lesson.head", number=number, title=title)}
 
 
-def _following(index, finding, say):
-    text = say("doctor.follows", cause=finding.follows, **counted(finding, say))
+def _following(index, finding, findings, say):
+    text = following(finding, findings, say)
     return {"index": index, "rule": finding.rule, "text": text, "place": bool(finding.first)}
 
 

@@ -46,7 +46,7 @@ def show(session, say):
     kind = event.kind.name
     found = {
         "at": f"{session.cursor.x},{session.cursor.y},{session.cursor.path}:",
-        "note": say(f"what_if.at.{_question(session)}"),
+        "note": say(f"what_if.at.{_question(session)}", name=session.given and session.given.name),
         "knobs": _KNOBS[kind](session, say) if _choice(session) else [],
         "supposed": [],
     }
@@ -73,11 +73,15 @@ def _choice(session):
     """Whether the event could have gone otherwise; a log may lack the surface that it is at."""
     event, before = session.event, session.path.events[: session.cursor.event]
     there = any(e.kind.name == "hit" for e in before)
-    return there and event.kind.name in KINDS and not event.values.get("delta", False)
+    return (
+        there and session.given is None and event.kind.name in KINDS and not event.values.get("delta", False)
+    )
 
 
 def _question(session):
     """What is asked of the event: by its kind, or why nothing can be."""
+    if session.given is not None:
+        return "given"
     if _choice(session):
         return session.event.kind.name
     return "dirac" if session.event.values.get("delta", False) else "none"

@@ -6,7 +6,7 @@ from pathlib import Path
 import tracer
 from lessons.zoo import planted
 from viewer.cursor import Cursor
-from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
+from viewer.doctor_report import bug_title, bugs, chance, counted, equation, following, lesson, place
 from viewer.numerals import NOTHING
 from viewer.offline import BEGIN, document, figure, furniture
 from viewer.render import preview
@@ -86,9 +86,7 @@ def _proof(scene, settings, first, say):
 
 
 def _following(diagnosis, say):
-    told = [
-        say("doctor.follows", cause=f.follows, **counted(f, say)) for f in diagnosis.findings if f.follows
-    ]
+    told = [following(f, diagnosis.findings, say) for f in diagnosis.findings if f.follows]
     items = "".join(f"<li>{escape(text)}</li>" for text in told)
     return f"<h2>{escape(say('exam.following', n=len(told)))}</h2><ul>{items}</ul>" if told else ""
 
