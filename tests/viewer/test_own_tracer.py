@@ -12,9 +12,8 @@ from viewer.checking.learner import settings_of
 from viewer.cli import main
 from viewer.opening import learner
 from viewer.opening.learner import Watched
-from viewer.panels import find
+from viewer.panels import find, what_if
 from viewer.panels import given as panel
-from viewer.panels import what_if
 from viewer.session import Session
 from viewer.words import Speaker
 

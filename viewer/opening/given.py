@@ -63,12 +63,14 @@ class Given:
 
     @property
     def _giving(self):
-        """Which path is worth opening with: that of the light sample that gives most, else the brightest."""
+        """Which path is worth opening with: that of the light sample that gives most, else the brightest,
+        else the first."""
         lit = self.trace.tables.get("light")
         added = None if lit is None else lit["contribution"]
         if added is not None and np.any(added > 0):
             return int(lit.path[np.argmax(np.nan_to_num(added).sum(axis=0))])
-        return int(np.argmax(np.nan_to_num(self.trace.paths["radiance"]).sum(axis=0)))
+        radiance = self.trace.paths.get("radiance")  # a log need not have it
+        return 0 if radiance is None else int(np.argmax(np.nan_to_num(radiance).sum(axis=0)))
 
     def place(self, first):
         """(x, y, path, event) of what a finding names: a log may lack some samples."""
