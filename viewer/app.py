@@ -143,7 +143,7 @@ def _run(session, port, open_browser, number=None, framed=False, engine="numpy")
         pass
     finally:
         _end(window)
-    print("castray: viewer closed", file=sys.stderr)
+    print(f"castray: {Speaker()('told.closed')}", file=sys.stderr)
 
 
 def _trame(title):

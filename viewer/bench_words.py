@@ -5,6 +5,7 @@ import statistics
 
 from tracer.testing import efficiency
 from tracer.testing.machine import KERNEL, machine
+from viewer.words import Speaker
 
 
 def as_dict(studies, out=None):
@@ -98,58 +99,67 @@ def print_studies(studies, out=None):
 
     console = Console(highlight=False, soft_wrap=True)
     console.width = max(console.width, WIDEST)
-    about = machine()
-    console.print(
-        f"{about['processor']}, {about['cores']} cores, Python {about['python']}, NumPy {about['numpy']}\n"
-        f"kernel: {KERNEL}\nmemory: {MEMORY}",
-        markup=False,
-    )
+    say, about = Speaker(), machine()
+    about = {name: about[name] for name in ("processor", "cores", "python", "numpy")}
+    for line in (
+        say("bench.machine", **about),
+        say("bench.kernel", kernel=say.error(KERNEL)),
+        say("bench.memory", memory=say.error(MEMORY)),
+    ):
+        console.print(line, markup=False)
     for study in studies:
-        _print_study(study, console)
+        _print_study(study, say, console)
     if out is not None:
-        console.print(f"\n{out}: the curves", markup=False)
+        console.print("\n" + say("bench.curves", file=out), markup=False)
 
 
-def _print_study(study, console):
+def _print_study(study, say, console):
     base, curves = study.base, study.curves
-    console.print(f"\n[bold]{study.scene.name}[/bold], {base.width} x {base.height}, {_seeds(study)}")
-    console.print(_about_reference(study.reference), markup=False)
+    about = say.clauses(f"{base.width} x {base.height}", *_seeds(study, say))
+    console.print("\n" + say.clauses(f"[bold]{study.scene.name}[/bold]", about))
+    console.print(_about_reference(study.reference, say), markup=False)
     for note in study.notes:
-        console.print(f"note: {note}", markup=False)
+        console.print(say("bench.note", note=say.error(note)), markup=False)
     if not study.complete:
-        console.print("stopped early: what follows is what was done by then")
-    console.print(_curve_table(study, curves))
-    console.print(_estimator_table(study, curves))
+        console.print(say("bench.stopped"))
+    console.print(_curve_table(study, curves, say))
+    console.print(_estimator_table(study, curves, say))
     for one, why in study.skipped:
-        console.print(f"left out: {study.label(one)}: {why}", markup=False)
-    console.print(verdict(study), markup=False)
+        console.print(say("bench.left_out", label=study.label(one), why=say.error(why)), markup=False)
+    console.print(verdict(study, say), markup=False)
 
 
-def _seeds(study):
+def _seeds(study, say):
+    """Which seeds, and how many processes."""
     seeds = sorted({run.seed for run in study.runs})
-    said = f"seed {seeds[0]}" if len(seeds) == 1 else f"seeds {seeds[0]} to {seeds[-1]}"
-    return f"{said}, {study.workers} {'process' if study.workers == 1 else 'processes'}"
+    if len(seeds) == 1:
+        yield say("bench.seed", first=seeds[0])
+    else:
+        yield say("bench.seeds", first=seeds[0], last=seeds[-1])
+    yield say("bench.process" if study.workers == 1 else "bench.processes", n=study.workers)
 
 
-def _about_reference(reference):
+def _about_reference(reference, say):
+    origin = say.error(reference.origin)
     if reference.variance is None:
-        return f"reference: {reference.origin}; its own error is not known, and counts with the others'"
-    rmse = math.sqrt(reference.mse)
-    return f"reference: {reference.origin}; its own RMSE of {rmse:.2g} is taken off the others'"
+        return say("bench.reference_unknown", origin=origin)
+    return say("bench.reference", origin=origin, rmse=f"{math.sqrt(reference.mse):.2g}")
 
 
-def _table(*columns):
+def _table(say, *columns):
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
     for name in columns:
-        table.add_column(name, justify="left" if name == "estimator" else "right", no_wrap=True)
+        justify = "left" if name == "estimator" else "right"
+        table.add_column(say(f"bench.{name}"), justify=justify, no_wrap=True)
     return table
 
 
-def _curve_table(study, curves):
+def _curve_table(study, curves, say):
     """Every point: medians, and the smallest and largest of the seeds."""
-    table = _table("estimator", "spp", "seconds", "kernel ms", "RMSE", "of the seeds", "relMSE", "1/(s MSE)")
+    names = ("estimator", "spp", "seconds", "kernel_ms", "rmse", "range", "rel_mse", "per_second")
+    table = _table(say, *names)
     for one, points in curves.items():
         for k, point in enumerate(points):
             middle, low, high = (_shown(v, study.reference.mse) for v in point.rmse)
@@ -185,9 +195,9 @@ def _resolved(point, reference):
     return point.mse[0] > 0.0 and point.mse[0] >= reference.mse
 
 
-def _estimator_table(study, curves):
+def _estimator_table(study, curves, say):
     """One line an estimator, at its largest number of samples."""
-    table = _table("estimator", "efficiency", "slope", "paths/s", "rays/s", "kernel ms", "memory")
+    table = _table(say, "estimator", "efficiency", "slope", "paths", "rays", "kernel_ms", "held")
     resolved = [points[-1] for points in curves.values() if _resolved(points[-1], study.reference)]
     best = max((point.efficiency for point in resolved), default=1.0)
     for one, points in curves.items():
@@ -209,28 +219,28 @@ def _slope(study, points):
     return efficiency.slope([point for point in points if _resolved(point, study.reference)])
 
 
-def verdict(study):
+def verdict(study, say):
     """One line: the estimator that reaches the same error in the least time; those that some seed puts
     before it are named with it."""
     most = study.spps[-1]
     costs = {one: _costs(study, one, most) for one in study.curves}
     costs = {one: of_one for one, of_one in costs.items() if of_one}
     if not costs:
-        return "no estimator got as far as its last point"
+        return say("bench.none")
     if len(costs) == 1:
-        return f"{study.label(*costs)} alone was measured"
+        return say("bench.alone", label=study.label(*costs))
     middle = {one: statistics.median(of_one.values()) for one, of_one in costs.items()}
     exact = [one for one in costs if middle[one] == 0.0]
     if exact:
-        return f"no error is to be seen at {most} samples per pixel: {', '.join(map(study.label, exact))}"
+        return say("bench.exact", spp=most, labels=say.listed(*map(study.label, exact)))
     first, second = sorted(costs, key=middle.__getitem__)[:2]
     seeds = set.intersection(*map(set, costs.values()))
     tied = [one for one in costs if one != first and any(costs[one][k] <= costs[first][k] for k in seeds)]
-    said = f"{study.label(first)} is the most efficient at {most} samples per pixel"
+    said = {"label": study.label(first), "spp": most}
     if tied:
-        return f"{said}, but not under every seed: {', '.join(map(study.label, tied))}"
+        return say("bench.tied", labels=say.listed(*map(study.label, tied)), **said)
     ratio = middle[second] / middle[first]
-    return f"{said}, {ratio:.2g} times as much as {study.label(second)}, and under every seed"
+    return say("bench.best", times=f"{ratio:.2g}", second=study.label(second), **said)
 
 
 def _costs(study, estimator, spp):

@@ -147,7 +147,7 @@ def why_dead(path, scene, say):
             "dead.one" if len(samples) == 1 else "dead.all", n=len(samples), reason=next(iter(reasons))
         )
     else:
-        parts = say.listed(*(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common()))
+        parts = say.clauses(*(say("dead.part", n=n, reason=reason) for reason, n in reasons.most_common()))
         lights = say("dead.some", n=len(samples), parts=parts)
     return say("dead", end=say(f"dead.{path.end}"), lights=lights)
 

@@ -59,7 +59,7 @@ def _language(words):
     return found, left
 
 
-def _say(message, *_):
+def _say(message):
     """A message as one line on standard error; what is not to be seen, as its code."""
     line = " ".join(str(message).split())
     shown = (c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in line)
@@ -73,7 +73,7 @@ def main(words=None):
             stream.reconfigure(errors="replace")  # a terminal that lacks a character shows "?"
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _say
+            warnings.showwarning = lambda warning, *_: _say(Speaker().error(str(warning)))
             language, words = _language([*(sys.argv[1:] if words is None else words)])
             use(language)
             if words[:1] == ["help"]:
@@ -83,10 +83,10 @@ def main(words=None):
         _say(Speaker().error(" ".join(str(error).split())))
         sys.exit(2)
     except MemoryError:
-        print("castray: not enough memory for that; try a smaller --size or fewer --spp", file=sys.stderr)
+        _say(Speaker()("told.memory"))
         sys.exit(2)
     except KeyboardInterrupt:
-        print("castray: stopped", file=sys.stderr)
+        _say(Speaker()("told.stopped"))
         sys.exit(130)
     except BrokenPipeError:
         # Who reads us has seen enough; keep Python from complaining about it at exit.

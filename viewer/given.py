@@ -8,6 +8,7 @@ import numpy as np
 import tracer
 from tracer.settings import TracerError
 from tracer.trace import folder, join, read_parts
+from viewer.words import Speaker
 
 MOST_PATHS = 1 << 19  # of a recording looked at together: about half a gigabyte
 
@@ -23,7 +24,8 @@ def recorded_trace(path, most=None):
     if most is not None and paths > most:
         few = max(1, int(place.parts * most / paths))
         numbers = np.unique(np.linspace(0, place.parts - 1, few).astype(int)).tolist()
-        print(f"{path}: {paths} paths; {len(numbers)} of {place.parts} parts are looked at", file=sys.stderr)
+        said = Speaker()("told.some_parts", path=path, paths=paths, n=len(numbers), parts=place.parts)
+        print(said, file=sys.stderr)
     return join(read_parts(path, numbers=numbers))
 
 
@@ -39,7 +41,9 @@ def logged_trace(file, scene, name=None):
     name = name or file
     found = read_log(file, tracer.load(scene) if isinstance(scene, str) else scene)
     more = found.read.mistaken - len(found.mistakes)
-    said = [*map(str, found.mistakes), *([f"... and {more} more mistakes"] if more else []), *found.notes]
-    for line in said:
+    say = Speaker()
+    said = [say.error(str(one)) for one in (*found.mistakes, *found.notes)]
+    said.insert(len(found.mistakes), say("log.more", n=more) if more else "")
+    for line in filter(None, said):
         print(f"{name}: {line}", file=sys.stderr)
     return found.trace

@@ -81,7 +81,7 @@ def _print_foot(run, places, say, console):
     _print_places(lesson, places, console)
     console.print()
     if lesson.bugs:
-        console.print(Text(say("lesson.mistake", bugs=", ".join(lesson.bugs), bug=lesson.bugs[0])))
+        console.print(Text(say("lesson.mistake", bugs=say.listed(*lesson.bugs), bug=lesson.bugs[0])))
     if lesson.references:
         console.print(Text(say("lesson.references", works="; ".join(lesson.references))))
 

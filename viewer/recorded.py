@@ -10,6 +10,7 @@ from tracer.trace.fingerprint import differences
 from tracer.trace.stored_scene import restore
 from viewer import link
 from viewer.session import telling_pixel
+from viewer.words import Speaker
 
 
 def is_recording(text):
@@ -41,11 +42,12 @@ def compared(place, scene, x, y):
     again = tracer.inspect(scene, settings, x, y, steps=planted(settings)).value
     stored = reading.stored_pixel(place, x, y)
     other = differences(place.header["fingerprint"])
+    say = Speaker()
+    told = {"x": x, "y": y, "other": say.listed(*map(say.error, other))}
     if again.tobytes() == stored.tobytes():
-        return f"recorded elsewhere ({'; '.join(other)}); pixel {x} {y} is the same here" if other else None
-    apart = f"recorded {_numbers(stored)}, traced again {_numbers(again)}"
-    where = f"recorded elsewhere ({'; '.join(other)})" if other else "recorded by another state of castray"
-    return f"{where}; pixel {x} {y} is not the same here: {apart}"
+        return say("told.elsewhere_same", **told) if other else None
+    told |= {"stored": _numbers(stored), "again": _numbers(again)}
+    return say("told.elsewhere" if other else "told.other_state", **told)
 
 
 def _numbers(values):

@@ -8,6 +8,7 @@ from rich.text import Text
 
 from tracer.testing.errorbars import NO_ERROR
 from viewer.caption import applies, caption, shown, unit_of, why_dead
+from viewer.folded import Folded
 from viewer.understanding.waterfall import bar_name, waterfall
 from viewer.understanding.why import why
 from viewer.words import Speaker
@@ -54,7 +55,8 @@ def print_needs(features, console=None):
     table, say = Table(box=None, show_header=False, padding=(0, 2, 0, 0)), Speaker()
     for need in features:
         word = say("render.on" if need.on else "render.off")
-        table.add_row(word, need.name, need.why, style="" if need.on else "dim")
+        why = Folded(Text(say.need(need.why)))
+        table.add_row(word, say.need(need.name), why, style="" if need.on else "dim")
     (console or Console(highlight=False)).print(table)
 
 

@@ -48,9 +48,8 @@ class SpokenFormatter(DefaultFormatter):
         meaning = next((say.words[key] for key in keys if key in say.words), entry.description)
         field = Settings.__dataclass_fields__.get(name) if of_settings else None
         choices = field.metadata["choices"] if field else ()
-        return (
-            say("help.choices", meaning=meaning, choices=", ".join(map(str, choices))) if choices else meaning
-        )
+        listed = say.listed(*map(str, choices))
+        return say("help.choices", meaning=meaning, choices=listed) if choices else meaning
 
 
 def name_of(entry):

@@ -3,11 +3,13 @@
 import numpy as np
 from rich.padding import Padding
 from rich.table import Table
+from rich.text import Text
 
 import tracer
 from lessons.course import about
 from lessons.zoo import FAMILIES, RIGHT, alike
 from tracer.settings import TracerError
+from viewer.folded import Folded
 from viewer.progress import watched
 from viewer.words import Speaker
 
@@ -44,11 +46,11 @@ def print_bug(bug, console):
     said = {
         "seen": symptom_of(bug, say),
         "wrong": wrong_of(bug, say),
-        "law": bug.law,
+        "law": say.optional(f"broken.{bug.law}", bug.law),
         "steps": say.listed(*bug.changes) or say("value.none"),
         "shows": bug.command,
         "alike": say.listed(*others),
-        "here": bug.note,
+        "here": say.optional(f"aside.{bug.id}", bug.note),
         "lesson": f"castray lesson {about(bug.id)}" if about(bug.id) else "",
     }
     table = Table(box=None, show_header=False)
@@ -56,7 +58,7 @@ def print_bug(bug, console):
     table.add_column()
     for name, text in said.items():
         if text:
-            table.add_row(say(f"bugs.{name}"), text)
+            table.add_row(say(f"bugs.{name}"), Folded(Text(text)))
     console.print(Padding(table, (0, 0, 0, 1)))
 
 
@@ -99,7 +101,7 @@ def draw(chosen, folder):
         raise TracerError(f"{folder}: is not a folder; make it first")
     seen = [bug for bug in chosen if not bug.only_cost]
     drawn, right = {}, {}
-    with watched("rendering") as progress:
+    with watched(Speaker()("progress.rendering")) as progress:
         for done, bug in enumerate(seen):
             scene = tracer.load(bug.scene)
             scale = SIDE / max(scene.width, scene.height)

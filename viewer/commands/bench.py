@@ -20,6 +20,7 @@ from viewer.options import (
     shrunk,
 )
 from viewer.progress import watched
+from viewer.words import Speaker
 
 FINER = 16  # the reference has so many times the samples of the finest picture, unless said
 MOST_SEEDS = 1000
@@ -142,7 +143,7 @@ def _show(studies, output, json):
     complete = all(study.complete for study in studies)
     studies = [study for study in studies if study.runs]
     if not studies:
-        print("castray: stopped before anything was measured", file=sys.stderr)
+        print(f"castray: {Speaker()('told.nothing_measured')}", file=sys.stderr)
         return 130
     if output is not None:
         from viewer import plot_bench, plots
@@ -205,7 +206,7 @@ def _conduct(study, file, spp, steps):
         _find_reference(study, file, spp)
         for one in willing:
             study.memory[one] = efficiency.memory(scene, one, study.base, study.spps[-1], steps)
-        with watched(f"{scene.name}: measuring") as progress:
+        with watched(Speaker()("progress.measuring", scene=scene.name)) as progress:
             runs = efficiency.measure(
                 scene, willing, study.base, study.spps, study.seeds, study.reference, study.workers, steps
             )
@@ -226,7 +227,7 @@ def _find_reference(study, file, spp):
 
     base = study.base
     if file is None:
-        with watched(f"{study.scene.name}: the reference") as progress:
+        with watched(Speaker()("progress.reference", scene=study.scene.name)) as progress:
             study.made = efficiency.long_render(study.scene, base, spp, study.workers, progress)
         origin = f"path, {spp} samples per pixel, seed {base.seed}"
         study.reference = efficiency.Reference.of(study.made, origin)

@@ -158,4 +158,4 @@ def print_report(document):
         said = [say("bench_bsdf.fresnel", degrees=f"{marks['schlick_error_degrees']:.1f}", **numbers)]
         angles = (key for key in ("brewster", "critical") if key in marks)
         said += [say(f"bench_bsdf.{key}", degrees=f"{marks[key]:.2f}") for key in angles]
-        console.print(f"\n{say.listed(*said)}", markup=False)
+        console.print(f"\n{say.clauses(*said)}", markup=False)

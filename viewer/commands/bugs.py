@@ -27,6 +27,7 @@ def bugs(
     from rich.console import Console
 
     from lessons.zoo import FAMILIES, of
+    from viewer.words import Speaker
     from viewer.zoo import as_dict, draw, print_bug, print_bugs
 
     chosen = [of(bug_id)] if bug_id else [bug for family in FAMILIES.values() for bug in family]
@@ -40,7 +41,8 @@ def bugs(
     else:
         print_bugs(console)
     if thumbnails is not None:
-        console.print(f"\n{len(drawn)} pictures in {thumbnails}: wrong to the left, right beside it")
+        say = Speaker()
+        console.print("\n" + say("told.drawn", n=len(drawn), folder=thumbnails))
         still = [bug.id for bug in chosen if bug.only_cost]
         if still:
-            console.print(f"no picture of {', '.join(still)}: only time is lost")
+            console.print(say("told.undrawn", bugs=say.listed(*still)))

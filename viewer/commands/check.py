@@ -133,4 +133,4 @@ def _write_starter(file):
         file.write_text(Path(starter.__file__).read_text(encoding="utf-8"), encoding="utf-8")
     except OSError as error:
         raise TracerError(f"{file}: {error.strerror}") from None
-    print(f"{file}: a tracer to start from; castray check {file} judges it")
+    print(Speaker()("told.starter", file=file))

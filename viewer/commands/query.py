@@ -81,7 +81,7 @@ def query(
     else:
         _print_paths(answer)
         if mask is not None:
-            print(f"{mask}: where they are")
+            print(Speaker()("told.mask", file=mask))
     return 0
 
 
@@ -107,7 +107,7 @@ def _print_paths(answer):
         [
             f"{p['x']} {p['y']}",
             p["sample"],
-            p["kind"] or "",
+            say.optional(f"kind.{p['kind']}", ""),
             "" if p["depth"] is None else p["depth"],
             p["events"],
         ]

@@ -88,7 +88,7 @@ def render(
         engine, why = _chosen(loaded, settings, steps, record)
     common = {"workers": workers or os.cpu_count() or 1, "steps": steps}
     plan = {"until_error": until_error, "adaptive": adaptive, "engine": engine}
-    with watched("rendering") as progress, _machines(cluster) as machines:
+    with watched(Speaker()("progress.rendering")) as progress, _machines(cluster) as machines:
         common |= {"progress": progress, "cluster": machines}
         if record is not None:
             picture = tracer.record(loaded, settings, record, record_level or "paths", **common)
@@ -104,7 +104,8 @@ def render(
         features = list(needs(loaded, picture.settings))
     _report(loaded, picture, path, json, features, _kept(record) if record is not None else {})
     if why and not json:
-        print(f"engine {picture.engine}: {why}")
+        say = Speaker()
+        print(say("told.engine", engine=picture.engine, why=say.error(why)))
     if machines is not None and machines.lost:
         return 1
     return 0 if picture.complete else 130
@@ -137,10 +138,8 @@ def _going_on(path, scene, settings, options):
         unfinished.forget(place)
     else:
         done = unfinished.keep(place, so_far, scene, settings)
-        print(
-            f"castray: {place}: {done} of {picture.samples.size} pixels are done; the same command goes on",
-            file=sys.stderr,
-        )
+        said = Speaker()("told.going_on", place=place, done=done, pixels=picture.samples.size)
+        print(f"castray: {said}", file=sys.stderr)
     return picture
 
 
@@ -185,9 +184,8 @@ def _report(scene, picture, path, as_json, features, kept):
         print_needs(features)
     _print_picture(picture, path)
     if kept:
-        of_parts = f"{kept['done']} of {kept['parts']} parts of level {kept['level']}"
-        more = "" if picture.complete else "; the same command goes on"
-        print(f"{kept['folder']}: {of_parts}, {kept['bytes'] / 1e6:.1f} MB{more}")
+        key = "told.kept" if picture.complete else "told.kept_so_far"
+        print(Speaker()(key, size=f"{kept['bytes'] / 1e6:.1f}", **kept))
 
 
 def _as_dict(scene, picture, path):

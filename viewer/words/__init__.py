@@ -92,6 +92,15 @@ class Speaker:
         """What the doctor lacks to judge a law, in this language."""
         return self._translated(missing, "lacking.")
 
+    def need(self, words):
+        """What a picture needs of the tracer, or why, in this language, part by part."""
+        parts = (self._translated(part, "need.") for part in words.split("; "))
+        return words if self.language == "en" else self.words["clue.and"].join(map(self._names, parts))
+
+    def _names(self, words):
+        """The same with names of things listed as this language lists them."""
+        return words.replace(", ", self.words["join.list"])
+
     def clue(self, explanation):
         """What the doctor says a broken law looks like, in this language, piece by piece."""
         if self.language == "en":
@@ -115,7 +124,9 @@ class Speaker:
                     if "near" in values:  # several are joined by "or"
                         values["near"] = self.listed(*values["near"].split(" or "))
                     for inner in values.keys() & INNER:  # a sentence of its own
-                        values[inner] = self.error(values[inner])
+                        values[inner] = self._translated(values[inner], prefix)
+                    if "known" in values:
+                        values["known"] = self._names(values["known"])
                     if "kind" in values:
                         values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
                     return self(key, **values)
@@ -132,8 +143,12 @@ class Speaker:
         return self.words["join.sentences"].join(s for s in said if s)
 
     def listed(self, *said):
-        """Parts of a sentence one after another."""
+        """Things of a kind one after another."""
         return self.words["join.list"].join(said)
+
+    def clauses(self, *said):
+        """Parts of a sentence one after another."""
+        return self.words["join.clauses"].join(said)
 
     def under(self, prefix):
         """All words of one panel, keyed by the rest of their name, for its template."""

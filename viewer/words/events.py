@@ -89,6 +89,7 @@ WORDS = {
         "choice.invalid": "invalid",
         "join.sentences": " ",
         "join.list": ", ",
+        "join.clauses": ", ",
     },
     "zh": {
         "value.none": "无",
@@ -142,7 +143,7 @@ WORDS = {
         "dead.no_samples": "没有采样光源，也没有遇到光源",
         "dead.one": "它唯一的光源样本{reason}",
         "dead.all": "它的 {n} 个光源样本全都{reason}",
-        "dead.some": "它的 {n} 个光源样本中{parts}",
+        "dead.some": "它的 {n} 个光源样本中 {parts}",
         "dead.part": "{n} 个{reason}",
         "dead.light.lit": "到达",
         "dead.light.blocked": "被“{blocker}”挡住",
@@ -177,6 +178,7 @@ WORDS = {
         "kind.escape": "逃逸",
         "kind.end": "结束",
         "join.sentences": "",
-        "join.list": "，",
+        "join.list": "、",
+        "join.clauses": "，",
     },
 }

@@ -43,6 +43,7 @@ WORDS = {
         "error.query_no_function": "there is no function {name}",
         "error.query_syntax": "syntax error at or near {text}",
         "error.break_events": "break: {name} needs a recording of events (castray render --record-level events)",
+        "error.there_here": "{name} {there} there, {here} here",
         "error.export_xml": "{path}: a Mitsuba scene is an .xml file; say -o {name}",
     },
     "zh": {
@@ -87,6 +88,7 @@ WORDS = {
         "error.query_no_function": "没有函数 {name}",
         "error.query_syntax": "语法错误，在 {text} 附近",
         "error.break_events": "break：{name} 需要有事件的记录（castray render --record-level events）",
+        "error.there_here": "{name} 那里是 {there}，这里是 {here}",
         "error.export_xml": "{path}：Mitsuba 场景是 .xml 文件；请写 -o {name}",
     },
 }
