@@ -1,6 +1,5 @@
 """Every event is put into words, and a dead path says why it carries nothing."""
 
-import ast
 import re
 from dataclasses import fields
 from string import Formatter
@@ -9,7 +8,6 @@ import numpy as np
 import pytest
 from cases import slow_but
 from logs import INNER, OUTER, write_log
-from suite import ROOT
 
 import tracer
 from lessons import glossary
@@ -20,7 +18,6 @@ from tracer.settings import Settings
 from tracer.trace.jsonl import read_log
 from tracer.trace.pixels import pixel, without_gaps
 from viewer.caption import caption, shown, unit_of, why_dead
-from viewer.cli import main
 from viewer.equation import formulas
 from viewer.words import LANGUAGES, Speaker, areas, table
 
@@ -165,108 +162,6 @@ def test_chinese_words_are_those_of_the_lessons_glossary():
     chinese = table("zh")
     lacking = {key: glossary.missing(words, chinese[key]) for key, words in english().items()}
     assert {key: terms for key, terms in lacking.items() if terms} == {}
-
-
-# Errors that users meet often, as the command line gives them.
-OFTEN = (
-    "render nowhere", "render cornell_unit --spp 0", "render cornell_unit --spp 1.5",
-    "render cornell_unit --integrator photon", "render cornell_unit --roulette 2",
-    "render cornell_unit --roulette off", "render cornell_unit --bug no-such-bug",
-    "render cornell_unit --size 65535 65535", "render cornell_unit --integrator walk --strategy light",
-    "render cornell_unit --sampler independent --replicates 2",
-    "render cornell_unit --sampler lattice --replicates 3 --spp 4", "inspect cornell_unit --pixel 999 0",
-    "inspect cornell_unit --pixel 0 0 --sample 99", "render cornell_unit --bounces 3", "rendr", "render",
-    "inspect cornell_unit", "render cornell_unit --jitter=5", "render a b", "diff no.exr no.exr",
-    "render cornell_unit -o no/such/folder.npy", "view scene=nowhere", "view scene=furnace&bounces=3",
-    "view http://127.0.0.1/", "render cornell_unit --set white",
-    "render cornell_unit --set whit.reflectance=1",
-    "render cornell_unit --set white.colour=1", "inspect cornell_unit --pixel 0 0 --sample 0 --what-if x",
-    "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 1.bounce=3",
-    "inspect cornell_unit --pixel 0 0 --sample 0 --what-if 999.bounce=3,4",
-    "inspect cornell_unit --pixel 0 0 --event 3", "inspect cornell_unit --pixel 0 0 --sample 0 --event 99",
-    "inspect cornell_unit --pixel 0 0 --sample 0 --event 0",
-    "render cornel", "render nowhere.toml", "render cornell_unit --bug e01", "render cornell_unit --ssp 4",
-    "inspect cornell_unit --pixel 3", "view --lesson 3 --spp 4", "view cornell --scene cornell", "lesson one",
-    "lesson 4 --check", "lesson 4 --hint nothing", "lesson --check 3", "bugs E1", "doctor nowhere.jsonl",
-    "doctor no.png", "log nowhere.jsonl", "query nowhere x", "twin cornell_unit", "bsdf glas",
-    "bsdf diffuse -o x.jpg", "bsdf diffuse 3", "export furnace -o no", "check no.py --seconds 0",
-    "render cornell_unit --until-error 0", "render cornell_unit -o x.jpeg2", "render furnace --workers 0",
-    "render furnace --adaptive x --until-error 1", "render furnace --record-level events", "bench",
-    "diff no.exr", "render furnace --engine x", "render furnace --spp four", "render furnace --accel x",
-)  # fmt: skip
-BROKEN = (
-    "[sensor]\ntype = 'x'",
-    "[sensor]\ntype = 'perspectiv'",
-    "[sensor",
-    "[sensor]\ntype = 'perspective'\n[box]\ntype = 'cube'\nbsdf = 'whit'",
-    "sensor = 3",
-    "[light]",
-)
-
-
-def refused(words, capsys):
-    """The one line that the command says before it gives up."""
-    with pytest.raises(SystemExit) as end:
-        main(words)
-    assert end.value.code == 2
-    return capsys.readouterr().err.strip()
-
-
-@pytest.mark.parametrize("words", OFTEN)
-def test_errors_that_users_see_often_are_told_in_chinese(words, capsys):
-    english = refused(words.split(), capsys)
-    chinese = refused(["--lang", "zh", *words.split()], capsys)
-    assert "\n" not in chinese and chinese != english
-    assert re.search(r"[\u4e00-\u9fff]", chinese)
-
-
-@pytest.mark.parametrize("text", BROKEN)
-def test_errors_in_scene_files_are_told_in_chinese(text, tmp_path, capsys):
-    file = tmp_path / "room.toml"
-    file.write_text(text, encoding="utf-8")
-    said = refused(["--lang", "zh", "render", str(file)], capsys)
-    assert re.search(r"[\u4e00-\u9fff]", said) and str(file) in said
-
-
-ERRORS = [(key, words) for key, words in table("en").items() if key.startswith("error.")]
-
-
-@pytest.mark.parametrize(("key", "words"), ERRORS, ids=[key for key, _ in ERRORS])
-def test_no_error_is_taken_for_a_more_general_one(key, words):
-    """Of all patterns that fit an error the first says it: those that are general come last."""
-    said = words.format(**{name: f"<{name}>" for name in names(words)})
-    chinese = table("zh")[key].format(**{name: f"<{name}>" for name in names(words)})
-    if "which" not in names(words) and "kind" not in names(words):
-        assert Speaker("zh").error(said) == chinese
-
-
-def raised(node):
-    """The words that a TracerError is raised with, what is filled in as a number or a quoted text; None where
-    they are another error's."""
-    if isinstance(node, ast.Constant):
-        return node.value
-    if not isinstance(node, ast.JoinedStr):
-        return None
-    filled = {114: "'X'"}  # !r
-    parts = [p.value if isinstance(p, ast.Constant) else filled.get(p.conversion, "7") for p in node.values]
-    return None if re.fullmatch(r"[7: ]*", "".join(parts)) else "".join(parts)
-
-
-def test_whatever_a_command_refuses_is_told_in_chinese():
-    errors = [
-        (file.name, raised(node.args[0]))
-        for file in sorted((ROOT / "viewer" / "commands").glob("*.py"))
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "TracerError"
-    ]
-    told = [(name, said) for name, said in errors if said is not None]
-    assert len(told) > 40
-    assert [one for one in told if not re.search(r"[\u4e00-\u9fff]", Speaker("zh").error(one[1]))] == []
-
-
-def test_an_error_that_is_not_in_the_table_keeps_its_own_words():
-    assert Speaker("zh").error("something quite new") == "something quite new"
-    assert Speaker("en").error("sensor: is missing") == "sensor: is missing"
 
 
 @pytest.mark.parametrize("language", LANGUAGES.keys() - {"en"})

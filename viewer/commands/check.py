@@ -9,6 +9,7 @@ from cyclopts import Parameter
 from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
 from viewer.options import CheckOptions, Json, print_json
+from viewer.words import Speaker
 
 
 def check(
@@ -61,7 +62,6 @@ def check(
         print_json(diagnosis.as_dict())
     else:
         from viewer.doctor_report import print_diagnosis
-        from viewer.words import Speaker
 
         print_diagnosis(diagnosis, trace)
         if diagnosis.findings:
@@ -96,7 +96,6 @@ def _folder(folder, scene, seconds, csv, html, options, json):
     from viewer.checking.limited import Judge
     from viewer.checking.submission import FAILED, WRONG, files_in
     from viewer.progress import watched
-    from viewer.words import Speaker
 
     for place in filter(None, (csv, html)):
         check_place(place)

@@ -54,14 +54,14 @@ def log(
     say = Speaker()
     print(f"{file}: {_counts(found, say)}")
     for mistake in found.mistakes:
-        print(mistake)
+        print(say.error(str(mistake)))
     more = found.read.mistaken - len(found.mistakes)
     if more:
         print(say("log.more", n=more))
     for note in found.notes:
-        print(say("log.note", note=note))
+        print(say("log.note", note=say.error(note)))
     if found.read_off:
-        said = ", ".join(f"{name} {value}" for name, value in found.read_off.items())
+        said = say.listed(*(f"{name} {value}" for name, value in found.read_off.items()))
         print(say("log.read_off", what=said))
 
 
@@ -75,8 +75,9 @@ def _write(path, source):
 def _counts(found, say):
     if found.trace is None:
         return say("log.lines", lines=found.read.lines)
-    events = ", ".join(f"{t.path.size} {name}" for name, t in found.trace.tables.items() if t.path.size)
     trace = found.trace
+    sizes = {name: table.path.size for name, table in trace.tables.items()}
+    events = say.listed(*(f"{n} {say('kind.' + name)}" for name, n in sizes.items() if n))
     counts = {"lines": found.read.lines, "paths": trace.size, "vertices": trace.vertices}
     return say("log.holds", events=events, **counts)
 

@@ -8,7 +8,7 @@ is declared (the schema of events, the doctor's laws, the zoo, errors) has no En
 import importlib
 import pkgutil
 import re
-from functools import cache
+from functools import cache, partial
 from string import Formatter
 
 from viewer.words.language import LANGUAGES, asked, current, use
@@ -31,6 +31,9 @@ def table(language):
 
 
 INNER = {"why", "what"}
+# What values look like where it matters: a place before a value may have colons in it, and no quotes.
+GREEDY = r"""[^'"{]+"""
+HELD = {"field": r"[\w.<>]+", "n": r"\S+"}
 # English counts in the plural, but for one thing: "1 paths" is "1 path".
 ONE = re.compile(
     r"(?<![\d.,/-])(1 (?:path|event|pixel|sample|light sample|bounce|finding|statement|direction))s\b"
@@ -39,14 +42,25 @@ ONE = re.compile(
 
 @cache
 def _patterns(prefix):
-    """Keys that begin so, with patterns of their English."""
+    """Keys that begin so, with patterns of their English: first those that begin with words of their own, and
+    of these, and of the others, those with most."""
+
+    def parts(words):
+        return [(text, name) for text, name, _, _ in Formatter().parse(words)]
 
     def pattern(words):
-        parts = Formatter().parse(words)
-        return "".join(re.escape(text) + (f"(?P<{name}>.+?)" if name else "") for text, name, _, _ in parts)
+        found = parts(words)
+        held = HELD | ({"place": GREEDY} if "value" in dict(map(reversed, found)) else {})
+        return "".join(
+            re.escape(text) + (f"(?P<{name}>{held.get(name, '.+?')})" if name else "") for text, name in found
+        )
 
-    known = table("en")
-    return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in known if key.startswith(prefix)]
+    def own(key):
+        said = [len(text) for text, _ in parts(known[key])]
+        return -said[0], -sum(said)
+
+    known = {key: words for key, words in table("en").items() if key.startswith(prefix)}
+    return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in sorted(known, key=own)]
 
 
 class Speaker:
@@ -85,8 +99,13 @@ class Speaker:
         return self.optional(f"dialed.{told(value)}", told(value))
 
     def error(self, message):
-        """An error in this language; in its own words where the table has none for it."""
-        return self._translated(message, "error.")
+        """An error in this language, with its place before it; in its own words where the table has none."""
+        said = self._translated(message, "error.")
+        if self.language == "en" or said != message:
+            return said
+        place, colon, rest = message.partition(": ")
+        inner = self.error(rest) if colon else rest
+        return self.words["clue.why"].join((place, inner)) if inner != rest else message
 
     def lacking(self, missing):
         """What the doctor lacks to judge a law, in this language."""
@@ -124,7 +143,10 @@ class Speaker:
                     if "near" in values:  # several are joined by "or"
                         values["near"] = self.listed(*values["near"].split(" or "))
                     for inner in values.keys() & INNER:  # a sentence of its own
-                        values[inner] = self._translated(values[inner], prefix)
+                        told = self.error if prefix == "error." else partial(self._translated, prefix=prefix)
+                        values[inner] = told(values[inner])
+                    for place in values.keys() & {"place", "path"}:
+                        values[place] = values[place].replace(": ", self.words["clue.why"])
                     if "known" in values:
                         values["known"] = self._names(values["known"])
                     if "kind" in values:
