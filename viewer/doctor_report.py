@@ -64,7 +64,7 @@ def _print_first(finding, say, console):
         console.print(Text(f"  {said}", style="italic"))
     table = Table(box=None, show_header=False, padding=(0, 0, 0, 2))
     for name, said in _said(finding, say):
-        table.add_row(Text(say(f"doctor.{name}"), style="dim"), said)
+        table.add_row(Text(say(f"doctor.{name}"), style="dim"), Folded(said))
     console.print(table)
     console.print()
 
@@ -97,11 +97,11 @@ def following(finding, findings, say):
 def _said(finding, say):
     """Names and texts, line by line."""
     yield "law", Text(say.optional(f"law.{finding.rule}", finding.law))
-    yield "formula", Text(finding.formula, style="cyan")
+    yield "formula", Text(say.formula(finding.rule, finding.formula), style="cyan")
     for name in ("recorded", "right"):
         value = getattr(finding, name)
         if value is not None:
-            yield name, Text(equation(finding.what, value))
+            yield name, Text(equation(say.quantity(finding.what), value))
     if finding.explanation:
         yield "why", Text(say.clue(finding.explanation))
     if finding.p is not None:

@@ -165,10 +165,11 @@ def _detail(found, say):
         head, rows = say("check.hypothesis"), [("", text) for text in told]
     else:
         head = f"{bugs(found, say)} {say('doctor.not_so', **counted(found, say))}".strip()
-        rows = [(say("doctor.formula"), found.formula)]
+        rows = [(say("doctor.formula"), say.formula(found.rule, found.formula))]
         for name in ("recorded", "right"):
             value = getattr(found, name)
-            rows += [(say(f"doctor.{name}"), equation(found.what, value))] if value is not None else []
+            if value is not None:
+                rows.append((say(f"doctor.{name}"), equation(say.quantity(found.what), value)))
         rows += [(say("doctor.why"), say.clue(found.explanation))] if found.explanation else []
         rows += [(say("doctor.first"), place(found.first, say))] if found.first else []
         rows += [(say("doctor.lesson"), lesson(found))] if found.lesson is not None else []

@@ -53,9 +53,12 @@ def _cause(finding, say):
     """A finding with a cause of its own, in full."""
     said = counted(finding, say)
     name = bug_title(finding.bug, say) if finding.bug else said["title"]
-    rows = [("law", say.optional(f"law.{finding.rule}", finding.law)), ("formula", finding.formula)]
+    rows = [
+        ("law", say.optional(f"law.{finding.rule}", finding.law)),
+        ("formula", say.formula(finding.rule, finding.formula)),
+    ]
     rows += [
-        (key, equation(finding.what, value))
+        (key, equation(say.quantity(finding.what), value))
         for key, value in (("recorded", finding.recorded), ("right", finding.right))
         if value is not None
     ]

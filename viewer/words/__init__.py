@@ -30,7 +30,9 @@ def table(language):
     return {key: words for tables in areas().values() for key, words in tables.get(language, {}).items()}
 
 
-INNER = {"why", "what"}
+INNER = {"why", "what"}  # sentences of their own
+CALLED = {"called", "neighbours", "colours"}  # terms of their own
+FACTORS = ("cos of the light sample", "pdf of the light sample")
 # What values look like where it matters: a place before a value may have colons in it, and no quotes.
 GREEDY = r"""[^'"{]+"""
 HELD = {"field": r"[\w.<>]+", "n": r"\S+"}
@@ -109,7 +111,7 @@ class Speaker:
 
     def lacking(self, missing):
         """What the doctor lacks to judge a law, in this language."""
-        return self._translated(missing, "lacking.")
+        return self._names(self._translated(missing, "lacking."))
 
     def need(self, words):
         """What a picture needs of the tracer, or why, in this language, part by part."""
@@ -119,6 +121,14 @@ class Speaker:
     def _names(self, words):
         """The same with names of things listed as this language lists them."""
         return words.replace(", ", self.words["join.list"])
+
+    def formula(self, rule, formula):
+        """The formula of one of the doctor's laws, with what words there are in it in this language."""
+        return self.optional(f"formula.{rule}", formula)
+
+    def quantity(self, name):
+        """What the doctor calls a number that it judges."""
+        return self.optional(f"quantity.{name}", name)
 
     def clue(self, explanation):
         """What the doctor says a broken law looks like, in this language, piece by piece."""
@@ -130,7 +140,11 @@ class Speaker:
 
     def _piece(self, part):
         said = self._translated(part, "clue.")
-        return re.sub(r"\bright\b", self.words["clue.right"], said) if part.startswith("recorded") else said
+        if not part.startswith("recorded"):
+            return said
+        for factor in FACTORS:
+            said = said.replace(factor, self.words[f"called.{factor}"])
+        return re.sub(r"\bright\b", self.words["clue.right"], said)
 
     def _translated(self, message, prefix):
         if self.language != "en":
@@ -149,6 +163,8 @@ class Speaker:
                         values[place] = values[place].replace(": ", self.words["clue.why"])
                     if "known" in values:
                         values["known"] = self._names(values["known"])
+                    for term in values.keys() & CALLED:
+                        values[term] = self.optional(f"called.{values[term]}", values[term])
                     if "kind" in values:
                         values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
                     return self(key, **values)

@@ -69,10 +69,10 @@ WORDS = {
         "ui.pixel_forward": "Pixel picked after (])",
     },
     "zh": {
-        "find.would": "搜索前会先记录全部事件地追踪整幅图像：{paths:,} 条路径（每像素 {spp} 条），约 {seconds} 秒。",
-        "find.foreign": "查询、热图和亮点只用于 castray 自己的路径。这里显示的是 {name} 的路径：请看“诊断”和“为什么”。",
+        "find.would": "搜索前要先追踪整幅图像，记录全部事件：{paths:,} 条路径（每像素 {spp} 条），约 {seconds} 秒。",
+        "find.foreign": "查询、热力图和萤火虫噪点只用于 castray 自己的路径。这里显示的是 {name} 的路径：请看“诊断”和“为什么”。",
         "find.recording": "将在这份记录中搜索。",
-        "find.tracing": "正在记录全部事件地追踪图像：{percent} %",
+        "find.tracing": "正在追踪图像并记录全部事件：{percent} %",
         "find.asking": "正在搜索",
         "find.traced": "搜索范围：{paths:,} 条路径，即每个像素的前 {spp} 条，追踪用时 {seconds} 秒。",
         "find.recorded": "搜索范围：这份记录，{paths:,} 条路径。",

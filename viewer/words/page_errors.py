@@ -46,7 +46,7 @@ WORDS = {
         "error.answer_outside": "题目 {id}：像素 {x} {y} 在 {width} x {height} 的图像之外",
         "error.claim": "第 {number} 课：它的论断在这台机器上不成立",
         "error.claim_why": "第 {number} 课：它的论断在这台机器上不成立：{said}",
-        "error.find_view": "查找：{width} x {height} 个像素太多，无法在几秒内记录全部事件地追踪；请用更小的 --size，或用 castray render --record-level events 记录后再查看",
+        "error.find_view": "查找：{width} x {height} 个像素太多，无法在几秒内追踪并记录全部事件；请用更小的 --size，或用 castray render --record-level events 记录后再查看",
         "error.maths_font": "缺少数学字体：请安装 ziamath",
     },
 }

@@ -66,7 +66,7 @@ WORDS = {
         "pic.factor_samples": "正确的图像，但处处是 {factor:.3g} 倍亮：曝光不同，或 {factor:.0f} 个样本之和没有除以样本数",
         "pic.mark_invalid": "{value:.2%} 的像素不是有限的数值：某处除以了零",
         "pic.mark_rows": "边缘有 {value} 行是黑的，好像没有线程画过",
-        "pic.mark_black": "它全是黑的，连灯也是黑的，错误大全中没有哪个错误单独会这样。常见原因：像素从未写入，或光还小于 1 时就按整数写入；相机朝向别处，或光线什么也碰不到；样本全是 NaN，变成了 0。请打印一次 castRay 的返回值，或记录一个像素：castray log --schema。",
+        "pic.mark_black": "它全是黑的，连灯也是黑的，错误动物园中没有哪个错误单独会这样。常见原因：像素从未写入，或光还小于 1 时就按整数写入；相机朝向别处，或光线什么也碰不到；样本全是 NaN，变成了 0。请打印一次 castRay 的返回值，或记录一个像素：castray log --schema。",
         "pic.prove": "要证明它，请记录 {fields}",
         "pic.more": "更多：{commands}",
         "pic.beside": "与正确的图像并排：{command}",

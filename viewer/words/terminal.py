@@ -90,6 +90,8 @@ WORDS = {
         "lacking.left_out": "{paths} paths, which are left out for what they did",
         "lacking.size": "the size of the picture",
         "lacking.samples": "the same number of samples in each pixel",
+        "lacking.probability": "one probability, declared",
+        "lacking.survival": "one survival probability, declared",
         "lacking.jitter": "jitter, which is off",
         # castray bugs
         "bugs.more": "castray bugs ID says all about one; --bug ID plants it in render, inspect and view",
@@ -189,6 +191,8 @@ WORDS = {
         "lacking.left_out": "有 {paths} 条路径因其行为而被略去",
         "lacking.size": "缺少图像的大小",
         "lacking.samples": "各像素的样本数不同",
+        "lacking.probability": "没有声明一个固定的概率",
+        "lacking.survival": "没有声明一个固定的存活概率",
         "lacking.jitter": "抖动已关闭",
         "bugs.more": "castray bugs ID 详细说明一种错误；--bug ID 把它植入 render、inspect 和 view",
         "bugs.seen": "现象",
