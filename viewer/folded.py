@@ -22,7 +22,9 @@ class Folded:
 
     def __rich_console__(self, console, options):
         """Its lines."""
-        yield from self.text.divide(ends_of_lines(self.text.plain, options.max_width))
+        for line in self.text.divide(ends_of_lines(self.text.plain, options.max_width)):
+            line.right_crop(len(line) - len(line.plain.rstrip(" ")))
+            yield line
 
     def __rich_measure__(self, console, options):
         """From its longest piece to all of it on one line."""

@@ -2,20 +2,33 @@
 
 import os
 import re
+from typing import ClassVar
 
-from rich.markdown import Markdown
+from rich.markdown import Markdown, Paragraph
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from lessons.plain import spelled
 from lessons.words import MOMENT, TaskWords
+from viewer.folded import Folded
 from viewer.link import of_moment
 from viewer.words import Speaker, asked, current
 
 DISPLAYED = re.compile(r"^\$\$\s*(.+?)\s*\$\$\s*(?:\([\w-]+\))?[ \t]*$", re.DOTALL | re.MULTILINE)
 INLINE = re.compile(r"(?<![\\$])\$([^$\n]+)\$")
 WAYS = {"number": "NUMBER", "choice": "LETTER", "pixel": "X Y", "path": "PATH", "event": "EVENT", "bug": "ID"}
+
+
+class _Paragraph(Paragraph):
+    """One whose lines end where those of its language do."""
+
+    def __rich_console__(self, console, options):
+        yield Folded(self.text)
+
+
+class _Markdown(Markdown):
+    elements: ClassVar[dict] = Markdown.elements | {"paragraph_open": _Paragraph}
 
 
 def command(run, verb, task):
@@ -37,16 +50,18 @@ def print_list(course, progress, console):
         time = say("lesson.minutes", n=lesson.minutes)
         table.add_row(f"{lesson.number:02}", lesson.words[current()].title, time, solved)
     console.print(table)
-    console.print(Text(f"\n{say('lesson.list')}"))
+    console.print(Folded(Text(f"\n{say('lesson.list')}")))
 
 
 def print_lesson(run, progress, console):
     """The whole text, its numbers filled in, and below it how to open the places it speaks of."""
     lesson, say = run.lesson, Speaker()
     solved = progress.solved(lesson.number)
-    console.print(Text(say("lesson.head", number=lesson.number, title=lesson.words[current()].title), "bold"))
+    console.print(
+        Folded(Text(say("lesson.head", number=lesson.number, title=lesson.words[current()].title), "bold"))
+    )
     about = {"n": lesson.minutes, "solved": len(solved & lesson.tasks.keys()), "tasks": len(lesson.tasks)}
-    console.print(Text(say("lesson.about", **about) + "\n", "dim"))
+    console.print(Folded(Text(say("lesson.about", **about) + "\n", "dim")))
     places = _places(lesson)
     for part in lesson.words[current()].body:
         if isinstance(part, TaskWords):
@@ -64,26 +79,26 @@ def _places(lesson):
 
 def _print_task(run, part, solved, places, console):
     say = Speaker()
-    console.print(Text(say(f"lesson.{'done' if solved else 'task'}", id=part.id), "bold cyan"))
+    console.print(Folded(Text(say(f"lesson.{'done' if solved else 'task'}", id=part.id), "bold cyan")))
     print_text(run, part.ask, console, places, indent=2)
     for name, text in part.choices.items():
         console.print(Padding(Text.assemble((f"{name}) ", "cyan"), plain(run.fill(text))), (0, 0, 0, 2)))
     task = run.lesson.tasks[part.id]
     way = command(run, "--check", f"{part.id} {WAYS[task.kind]}")
     way += f" ({task.unit})" if task.unit else ""
-    console.print(Padding(Text(say("lesson.answer", command=way), "dim"), (0, 0, 1, 2)))
+    console.print(Padding(Folded(Text(say("lesson.answer", command=way), "dim")), (0, 0, 1, 2)))
 
 
 def _print_foot(run, places, say, console):
     lesson = run.lesson
-    console.print(Text(say("lesson.view", command=f"castray view --lesson {lesson.number}") + "\n"))
-    console.print(Text(say("lesson.open")))
+    console.print(Folded(Text(say("lesson.view", command=f"castray view --lesson {lesson.number}") + "\n")))
+    console.print(Folded(Text(say("lesson.open"))))
     _print_places(lesson, places, console)
     console.print()
     if lesson.bugs:
-        console.print(Text(say("lesson.mistake", bugs=say.listed(*lesson.bugs), bug=lesson.bugs[0])))
+        console.print(Folded(Text(say("lesson.mistake", bugs=say.listed(*lesson.bugs), bug=lesson.bugs[0]))))
     if lesson.references:
-        console.print(Text(say("lesson.references", works="; ".join(lesson.references))))
+        console.print(Folded(Text(say("lesson.references", works="; ".join(lesson.references)))))
 
 
 def _print_places(lesson, places, console):
@@ -109,7 +124,7 @@ def print_text(run, text, console, places, indent=0):
         if k % 2:
             console.print(Padding(Text(spelled(piece), "bold"), (0, 0, 1, indent + 4)))
         elif piece.strip():
-            console.print(Padding(Markdown(_inline(piece.strip(), places)), (0, 0, 1, indent)))
+            console.print(Padding(_Markdown(_inline(piece.strip(), places)), (0, 0, 1, indent)))
 
 
 def _inline(text, places):
@@ -129,18 +144,18 @@ def print_verdict(run, task, verdict, done, finished, console):
     """Whether an answer was right, and what helps on. finished: whether no task of the lesson is open."""
     say, said = Speaker(), run.lesson.words[current()].tasks[task.id]
     if verdict.right:
-        console.print(Text(say("lesson.right"), "bold green"))
+        console.print(Folded(Text(say("lesson.right"), "bold green")))
         print_answer(run, said.solution, console)
         if finished:
-            console.print(Text(say("lesson.all_solved"), "bold"))
+            console.print(Folded(Text(say("lesson.all_solved"), "bold")))
         return
-    console.print(Text(say("lesson.wrong"), "bold red"))
+    console.print(Folded(Text(say("lesson.wrong"), "bold red")))
     if verdict.known in said.wrong:
         print_answer(run, said.wrong[verdict.known], console)
     _print_hint(run, said, done.hints, console)
     verb = ("hint", "next_hint") if done.hints < len(said.hints) else ("solution", "to_solution")
     way = command(run, f"--{verb[0]}", task.id)
-    console.print(Text(say(f"lesson.{verb[1]}", command=way), "dim"))
+    console.print(Folded(Text(say(f"lesson.{verb[1]}", command=way), "dim")))
 
 
 def print_hint(run, said, number, more, console):
@@ -149,15 +164,15 @@ def print_hint(run, said, number, more, console):
     if not more:
         say = Speaker()
         way = say("lesson.to_solution", command=command(run, "--solution", said.id))
-        console.print(Text(say.sentences(say("lesson.no_hint"), way)))
+        console.print(Folded(Text(say.sentences(say("lesson.no_hint"), way))))
 
 
 def _print_hint(run, said, number, console):
-    console.print(Text(Speaker()("lesson.hint", k=number, n=len(said.hints)), "bold"))
+    console.print(Folded(Text(Speaker()("lesson.hint", k=number, n=len(said.hints)), "bold")))
     print_answer(run, said.hints[number - 1], console)
 
 
 def print_solution(run, said, console):
     """How the task is solved."""
-    console.print(Text(Speaker()("lesson.solution"), "bold"))
+    console.print(Folded(Text(Speaker()("lesson.solution"), "bold")))
     print_answer(run, said.solution, console)

@@ -11,6 +11,7 @@ from lessons.course import about
 from tracer.doctor import LAWS, statistics
 from tracer.doctor.picture import FITS, predicted
 from viewer.doctor_report import bug_title
+from viewer.folded import Folded
 from viewer.words import Speaker
 
 _RULES = {rule.id: rule for rule in (*LAWS, *statistics.RULES)}
@@ -76,19 +77,23 @@ def print_opinion(opinion, picture, scene, album, guessed, console=None):
     console, say = console or Console(highlight=False), Speaker()
     console.width = min(console.width, 100)
     height, width = opinion.reading.rgb.shape[:2]
-    console.print(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene)))
+    console.print(
+        Folded(Text(say("pic.head", picture=str(picture), width=width, height=height, scene=scene)))
+    )
     for said in _how_read(opinion.reading, guessed, say):
-        console.print(Text(said, style="yellow"))
+        console.print(Folded(Text(said, style="yellow")))
     if opinion.likelier is not None:
-        console.print(Text(say("pic.likelier", reading=_read_as(opinion.likelier, say)), style="yellow"))
+        console.print(
+            Folded(Text(say("pic.likelier", reading=_read_as(opinion.likelier, say)), style="yellow"))
+        )
     console.print()
     if opinion.is_right:
-        console.print(Text(say("pic.right"), style="bold green"))
-        console.print(Text(say("pic.right_but"), style="dim"))
+        console.print(Folded(Text(say("pic.right"), style="bold green")))
+        console.print(Folded(Text(say("pic.right_but"), style="dim")))
     elif not opinion.hypotheses:
         _print_nothing(opinion, say, console)
     else:
-        console.print(Text(say("pic.hypotheses"), style="bold yellow"))
+        console.print(Folded(Text(say("pic.hypotheses"), style="bold yellow")))
         for h in opinion.hypotheses:
             console.print()
             _print_hypothesis(h, album, say, console)
@@ -119,16 +124,16 @@ def _read_as(curve, say):
 
 
 def _print_nothing(opinion, say, console):
-    console.print(Text(say("pic.nothing"), style="bold red"))
+    console.print(Folded(Text(say("pic.nothing"), style="bold red")))
     near = opinion.nearest
     if near is not None and near.bugs:
-        console.print(Text(say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains)))
-    console.print(Text(say("pic.log_any")))
+        console.print(Folded(Text(say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains))))
+    console.print(Folded(Text(say("pic.log_any"))))
 
 
 def _print_hypothesis(h, album, say, console):
     for k, said in enumerate(said_of(h, album, say)):
-        console.print(Text(said if k == 0 else f"  {said}", style="bold" if k == 0 else ""))
+        console.print(Folded(Text(said if k == 0 else f"  {said}", style="bold" if k == 0 else "")))
 
 
 def said_of(h, album, say):

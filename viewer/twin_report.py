@@ -5,6 +5,7 @@ from rich.console import Console
 from rich.text import Text
 
 from lessons.zoo import several
+from viewer.folded import Folded
 from viewer.numerals import luminance
 from viewer.twin_shares import decimals_of, print_shares, short_names, table
 from viewer.twin_words import (
@@ -48,23 +49,23 @@ def _print_head(twin, names, sides, bug, say, console):
     title = say("twin.and", one=names[0], other=names[1])
     if bug:
         title = say("twin.title", bug=bug, title=say.listed(*(title_of(one, say) for one in several(bug))))
-    console.print(Text(title, style="bold"))
-    console.print(Text(say("twin.head", scene=one.scene.name, **about)))
+    console.print(Folded(Text(title, style="bold")))
+    console.print(Folded(Text(say("twin.head", scene=one.scene.name, **about))))
     console.print(say("twin.pairs", pairs=twin.pairs))
     for name, count in zip(names, twin.alone, strict=True):
         if count:
-            console.print(Text(say("twin.alone", count=count, name=name), style="yellow"))
+            console.print(Folded(Text(say("twin.alone", count=count, name=name), style="yellow")))
     for note in twin.notes:
-        console.print(Text(note, style="yellow"))
+        console.print(Folded(Text(note, style="yellow")))
     if twin.uncompared:
         fields = [say("twin.only", field=place, name=names[which]) for place, which in twin.uncompared]
-        console.print(Text(say("twin.uncompared", fields=say.listed(*fields)), style="dim"))
+        console.print(Folded(Text(say("twin.uncompared", fields=say.listed(*fields)), style="dim")))
     console.print()
 
 
 def _print_same(twin, bug, say, console):
     said = say("twin.rounded", count=twin.rounded) if twin.rounded else say("twin.same")
-    console.print(Text(said, style="bold green"))
+    console.print(Folded(Text(said, style="bold green")))
     if not bug:
         return
     known = [one for one in several(bug) if not one.only_cost]
@@ -89,9 +90,9 @@ def _print_causes(twin, names, bug, say, console):
         )
     )
     if not bug and twin.differing == twin.pairs and all(c.kinds[0] == "camera" for c in twin.causes):
-        console.print(Text(say("twin.other_numbers"), style="yellow"))
+        console.print(Folded(Text(say("twin.other_numbers"), style="yellow")))
     console.print()
-    console.print(Text(say("twin.where"), style="bold"))
+    console.print(Folded(Text(say("twin.where"), style="bold")))
     rows = table()
     for name in ("event", "what"):
         rows.add_column(say(f"twin.{name}"), overflow="fold")
@@ -108,9 +109,9 @@ def _print_causes(twin, names, bug, say, console):
     rest = twin.causes[_CAUSES:]
     if rest:
         said = say("twin.more", count=sum(cause.pairs for cause in rest), ways=len(rest))
-        console.print(Text(said, style="dim"))
+        console.print(Folded(Text(said, style="dim")))
     if twin.told is not None:
-        console.print(Text(say("twin.brought", one=names[0], other=names[1]), style="dim"))
+        console.print(Folded(Text(say("twin.brought", one=names[0], other=names[1]), style="dim")))
     console.print()
 
 
@@ -123,8 +124,8 @@ def _place(parting, say):
 
 def _print_example(parting, names, sides, say, console):
     """The pair with the largest difference, at the event where it parts."""
-    console.print(Text(say("twin.example", **_place(parting, say)), style="bold"))
-    console.print(Text(say("twin.before"), style="dim"))
+    console.print(Folded(Text(say("twin.example", **_place(parting, say)), style="bold")))
+    console.print(Folded(Text(say("twin.before"), style="dim")))
     short = short_names(names, say)
     rows = [("", *short, "")]
     if not parting.numbers:
@@ -160,12 +161,12 @@ def _print_largest(twin, sides, say, console):
     """More pairs, a line each, with a command."""
     if len(twin.largest) < 2:
         return
-    console.print(Text(say("twin.others"), style="bold"))
+    console.print(Folded(Text(say("twin.others"), style="bold")))
     for parting in twin.largest[1:]:
         values = "?"
         if parting.radiance is not None:
             values = " -> ".join(f"{luminance(v):.5g}" for v in parting.radiance)
         said = say("twin.other", values=values, what=what_differs(parting.what, say), **_place(parting, say))
-        console.print(Text(said))
+        console.print(Folded(Text(said)))
         for command in sides[1].commands(parting.place(parting.steps[1]))[-1:]:
             console.print(Text(f"  {command}", style="cyan"), soft_wrap=True)

@@ -35,7 +35,9 @@ CALLED = {"called", "neighbours", "colours"}  # terms of their own
 FACTORS = ("cos of the light sample", "pdf of the light sample")
 # What values look like where it matters: a place before a value may have colons in it, and no quotes.
 GREEDY = r"""[^'"{]+"""
-HELD = {"field": r"[\w.<>]+", "n": r"\S+"}
+HELD = {"field": r"[\w.<>]+", "n": r"\S+", "name": "[^;]+"}
+QUOTED = re.compile(r"""(["'])([^"']*)\1""")
+APART = re.compile(r"(?<=[\u4e00-\u9fff]) (?=“)|(?<=”) (?=[\u4e00-\u9fff])")
 # English counts in the plural, but for one thing: "1 paths" is "1 path".
 ONE = re.compile(
     r"(?<![\d.,/-])(1 (?:path|event|pixel|sample|light sample|bounce|finding|statement|direction))s\b"
@@ -63,6 +65,12 @@ def _patterns(prefix):
 
     known = {key: words for key, words in table("en").items() if key.startswith(prefix)}
     return [(key, re.compile(pattern(known[key]), re.DOTALL)) for key in sorted(known, key=own)]
+
+
+def _quoted(value):
+    """What stands in quotes, in those that Chinese has."""
+    found = QUOTED.fullmatch(value)
+    return f"“{found[2]}”" if found else value
 
 
 class Speaker:
@@ -155,7 +163,7 @@ class Speaker:
                     if "which" in values:  # settings and their two values
                         values["which"] = self.listed(*map(self._differing, values["which"].split(", ")))
                     if "near" in values:  # several are joined by "or"
-                        values["near"] = self.listed(*values["near"].split(" or "))
+                        values["near"] = self.listed(*map(_quoted, values["near"].split(" or ")))
                     for inner in values.keys() & INNER:  # a sentence of its own
                         told = self.error if prefix == "error." else partial(self._translated, prefix=prefix)
                         values[inner] = told(values[inner])
@@ -167,7 +175,9 @@ class Speaker:
                         values[term] = self.optional(f"called.{values[term]}", values[term])
                     if "kind" in values:
                         values["kind"] = self.optional(f"kind.{values['kind']}", values["kind"])
-                    return self(key, **values)
+                    return APART.sub(
+                        "", self(key, **{name: _quoted(value) for name, value in values.items()})
+                    )
         return message
 
     def _differing(self, setting):

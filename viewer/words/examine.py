@@ -40,7 +40,7 @@ WORDS = {
         "ui.exam_examine": "检验",
         "ui.exam_findings": "诊断结果，首要原因在前",
         "ui.exam_go": "转到证明它的事件",
-        "ui.exam_where": "位置",
+        "ui.exam_where": "标在图像上",
         "ui.exam_recorded": "记录值",
         "ui.exam_right": "正确值",
         "ui.exam_rule": "定律",
