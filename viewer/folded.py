@@ -23,8 +23,8 @@ class Folded:
     def __rich_console__(self, console, options):
         """Its lines."""
         for line in self.text.divide(ends_of_lines(self.text.plain, options.max_width)):
-            line.right_crop(len(line) - len(line.plain.rstrip(" ")))
-            yield line
+            spaces = len(line) - len(line.plain.rstrip(" "))
+            yield line[: len(line) - spaces] if spaces else line
 
     def __rich_measure__(self, console, options):
         """From its longest piece to all of it on one line."""

@@ -138,7 +138,7 @@ def _print_example(parting, names, sides, say, console):
     _print_columns(rows, parting.what, console)
     for name, side, step in zip(short, sides, parting.steps, strict=True):
         for command in side.commands(parting.place(step)):
-            console.print(Text(f"{name}: ").append(command, style="cyan"), soft_wrap=True)
+            console.print(Text(say("twin.command", name=name)).append(command, style="cyan"), soft_wrap=True)
     console.print()
 
 
