@@ -48,8 +48,9 @@ class SpokenFormatter(DefaultFormatter):
         meaning = next((say.words[key] for key in keys if key in say.words), entry.description)
         field = Settings.__dataclass_fields__.get(name) if of_settings else None
         choices = field.metadata["choices"] if field else ()
-        listed = say.listed(*map(str, choices))
-        return say("help.choices", meaning=meaning, choices=listed) if choices else meaning
+        if not choices:
+            return meaning
+        return say("help.choices", meaning=meaning, choices=say.listed(*map(str, choices)))
 
 
 def name_of(entry):
