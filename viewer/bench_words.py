@@ -151,8 +151,8 @@ def _table(say, *columns):
 
     table = Table(box=None, pad_edge=False)
     for name in columns:
-        justify = "left" if name == "estimator" else "right"
-        table.add_column(say(f"bench.{name}"), justify=justify, no_wrap=True)
+        head = say(f"bench.{name}")
+        table.add_column(head, justify="left" if name == "estimator" else "right", no_wrap=True)
     return table
 
 
