@@ -42,6 +42,9 @@
     setup(props) {
       const trame = inject("trame"), view = inject("view"), box = ref(null), put = drawer(() => view.renderer);
       let frame = 0, wanted = true, last = "", aimed = null, named = false;
+      // a page in which nothing happens costs nothing: a look at every frame took a tenth of a processor
+      const lookSoon = () => { frame ||= requestAnimationFrame(() => { frame = 0; show(); }); };
+      const sizes = new ResizeObserver(show);
       const asked = new Map(), session = trame.client.getConnection().getSession();
       view.ctx.setFetchArrayFunction((hash) => { // each array once, however many layers have it
         if (!asked.has(hash)) asked.set(hash, session.call("viewport.geometry.array.get", [hash, true]).finally(() => asked.delete(hash)));
@@ -49,18 +52,16 @@
       });
       const canvas = view.openglRenderWindow.getCanvas(), context = canvas.getContext.bind(canvas);
       canvas.getContext = (kind, options) => context(kind, { ...options, alpha: false }); // nothing to blend with the page
-      view.render = Object.assign(() => { wanted = true; }, { cancel() {} });
-      function look() {
-        frame = requestAnimationFrame(look);
-        show();
-      }
+      view.render = Object.assign(() => { wanted = true; lookSoon(); }, { cancel() {} });
       function show() {
-        if (!view.renderer || !view.interactor.getEnableRender()) return; // the scene is still on its way
+        if (!view.renderer || !view.interactor.getEnableRender()) { lookSoon(); return; } // the scene is still on its way
         if (!named) named = name(canvas.closest("[tabindex]"));
         if (aimed !== props.camera) { aimed = props.camera; view.setCamera(aimed); wanted = true; }
         if (put(props.strokes)) wanted = true;
+        if (wanted) draw();
         place(view.getCamera());
-        if (!wanted) return;
+      }
+      function draw() {
         wanted = false;
         view.renderer.resetCameraClippingRange();
         view.renderWindow.render();
@@ -95,10 +96,14 @@
           element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
         });
       }
-      onMounted(look);
-      watch(() => props.strokes, show, { flush: "post" }); // the GPU is at it while the rest of the page is laid out
-      onBeforeUnmount(() => cancelAnimationFrame(frame));
-      const home = () => { aimed = null; };
+      onMounted(() => {
+        sizes.observe(box.value);
+        sizes.observe(box.value.closest(".stage").querySelector(".marks"));
+        lookSoon();
+      });
+      watch(() => [props.strokes, props.labels, props.camera], show, { flush: "post" }); // the GPU is at it while the rest of the page is laid out
+      onBeforeUnmount(() => { cancelAnimationFrame(frame); sizes.disconnect(); });
+      const home = () => { aimed = null; lookSoon(); };
       return { box, home };
     },
     template: `<div class="labels"><div ref="box"><span v-for="label in labels" :key="label.text" class="label" :class="label.layer"><castray-symbol :text="label.text"/></span></div>

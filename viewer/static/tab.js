@@ -3,6 +3,7 @@
   const { inject, onMounted, watch } = window.Vue;
   const self = Math.random().toString(36).slice(2) + Date.now().toString(36);
 
+  const RESTS = 1000; // milliseconds after the last step that the reader rests
   const CHOSEN = "castray-language"; // where the browser keeps it
 
   // One tab at a time: this one asks to lead, follows the link in its address, and hears the keys.
@@ -36,10 +37,12 @@
       }
       const hush = (event) => { if (!typing(event)) event.stopPropagation(); }; // vtk.js binds w, s and r
       const follow = () => { const hash = window.location.hash.slice(1); if (mine() && hash && hash !== props.link) trame.trigger("open", [hash]); };
-      const write = () => { if (mine()) window.history.replaceState(null, "", "#" + props.link); };
-      // a new address and a scroll cost the browser a picture each: the first can wait, the second is rarely needed
+      const write = () => { if (mine() && window.location.hash.slice(1) !== props.link) window.history.replaceState(null, "", "#" + props.link); };
+      // a new address costs the browser two pictures of the page and the icon's: it is written when the reader rests, or
+      // reaches for it; a scroll costs one, and is rarely needed
       let writing = 0;
-      const writeSoon = () => { clearTimeout(writing); writing = setTimeout(write, 150); };
+      const writeSoon = () => { clearTimeout(writing); writing = setTimeout(write, RESTS); };
+      const reaching = (event) => { if (event.ctrlKey || event.metaKey || /^F\d/.test(event.key)) write(); };
       function reveal(element) {
         const box = element.getBoundingClientRect(), frame = element.closest(".events, .track").getBoundingClientRect();
         const hidden = box.top < frame.top + (element.tagName === "TR" ? 24 : 0) || box.bottom > frame.bottom || box.left < frame.left || box.right > frame.right + 1;
@@ -48,13 +51,16 @@
       const show = () => { document.querySelectorAll(".events [aria-current], .track [aria-current]").forEach(reveal); };
       onMounted(async () => {
         window.addEventListener("keydown", key, true);
+        window.addEventListener("keydown", reaching, true);
+        window.addEventListener("blur", write);
+        document.documentElement.addEventListener("pointerleave", write);
         for (const kind of ["keypress", "keyup"]) window.addEventListener(kind, hush, true);
         window.addEventListener("hashchange", follow);
         const asked = window.location.hash.slice(1);
         await trame.trigger("take", [self, asked, wanted()]);
         document.documentElement.dataset.ready = "true";
       });
-      watch(() => [props.link, props.owner], () => { writeSoon(); show(); }, { flush: "post" });
+      watch(() => [props.link, props.owner], () => { writeSoon(); queueMicrotask(show); }, { flush: "post" }); // after the 3D view has been drawn
       watch(() => props.language, (tag) => { document.documentElement.lang = tag; }, { immediate: true });
       return { mine, take, speak };
     },
