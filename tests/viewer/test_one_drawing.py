@@ -3,13 +3,14 @@
 import pytest
 
 COUNT = """
-window.asked = window.pictures = 0;
+window.asked = window.pictures = window.frames = 0;
 const counted = (prototype, name, count) => {
   const before = prototype[name];
   prototype[name] = function (...given) { count(); return before.apply(this, given); };
 };
 counted(WebSocket.prototype, "send", () => { window.asked++; });
 counted(WebGL2RenderingContext.prototype, "clear", () => { window.pictures++; });
+counted(window, "requestAnimationFrame", () => { window.frames++; });
 """
 # The layers of which vtk.js has something else than what the server said last.
 UNLIKE = """
@@ -42,6 +43,7 @@ def settled(page):
 def page(browser, small):
     with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
         page = context.new_page()
+        page.set_default_timeout(120_000)  # milliseconds, as of the other tests of the page
         page.add_init_script(COUNT)
         page.goto(small.address)
         page.wait_for_selector("html[data-ready]")
@@ -79,3 +81,35 @@ def test_the_3d_view_shows_what_the_server_says_also_after_the_scene_came_anew(p
     page.wait_for_selector("[data-testid=legend-lobe_f]")
     settled(page)
     assert page.evaluate(UNLIKE) == []
+
+
+@pytest.mark.browser
+def test_a_page_in_which_nothing_happens_asks_for_no_frames(page):
+    settled(page)
+    page.evaluate("() => { window.frames = 0; }")
+    page.wait_for_timeout(500)
+    assert page.evaluate("() => window.frames") == 0
+    page.get_by_test_id("home").click()
+    page.wait_for_function("() => window.frames > 0")
+
+
+# A walk to the next path; the address as soon as the page shows it, and after the reader has left the page.
+LEFT = """
+() => new Promise((told) => {
+  const seen = new MutationObserver(() => {
+    seen.disconnect();
+    const before = window.location.hash.slice(1);
+    window.dispatchEvent(new Event("blur"));
+    told([before, window.location.hash.slice(1), window.trame.state.get("link")]);
+  });
+  seen.observe(document.querySelector("[data-link]"), { attributeFilter: ["data-link"] });
+  window.trame.trigger("go", ["down"]);
+})
+"""
+
+
+@pytest.mark.browser
+def test_the_address_waits_until_the_reader_rests_or_leaves_the_page(page):
+    page.wait_for_function("() => window.location.hash.slice(1) === window.trame.state.get('link')")
+    before, after, link = page.evaluate(LEFT)
+    assert before != link and after == link
