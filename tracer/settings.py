@@ -1,6 +1,6 @@
 """Every option that decides a path's numbers, declared once; all who ask or show derive from it."""
 
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -164,4 +164,4 @@ class Settings:
 
     def as_dict(self):
         """Plain values by name, as files and links keep them."""
-        return asdict(self)
+        return {f.name: getattr(self, f.name) for f in fields(self)}

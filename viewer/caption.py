@@ -42,10 +42,11 @@ def applies(field, value):
 
     A derived one that does not is NaN throughout, and one that the loop may leave out has the schema's value.
     """
-    nothing = np.nan if field.otherwise is None else field.otherwise
-    return not (
-        np.issubdtype(np.asarray(value).dtype, np.floating) and np.allclose(value, nothing, 0, 0, True)
-    )
+    value = np.asarray(value)
+    if not np.issubdtype(value.dtype, np.floating):
+        return True
+    nothing = np.isnan(value) if field.otherwise is None else value == field.otherwise
+    return not nothing.all()
 
 
 def caption(event, scene, say):

@@ -62,10 +62,22 @@ def rods(starts, ends, radius, tip=None, sides=7):
 def _rings(axes, sides):
     """Unit vectors (N, sides, 3) around each of some axes (N, 3)."""
     helper = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
-    u = np.cross(axes, helper)
+    u = _crossed(axes, helper)
     u /= np.linalg.norm(u, axis=1)[:, None]
+    across, along = _circle(sides)
+    return across * u[:, None] + along * _crossed(axes, u)[:, None]
+
+
+def _crossed(a, b):
+    """Cross products of vectors (N, 3); np.cross looks at their shapes for longer than it multiplies."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
+
+
+@cache
+def _circle(sides):
     angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)[:, None]
-    return np.cos(angle) * u[:, None] + np.sin(angle) * np.cross(axes, u)[:, None]
+    return np.cos(angle), np.sin(angle)
 
 
 @cache

@@ -1,5 +1,7 @@
 """The course beside the scene: the lessons with what is solved, or the text of one with its tasks."""
 
+from functools import cache
+
 from lessons import zoo
 from lessons.answer import Verdict
 from lessons.course import lessons
@@ -59,11 +61,17 @@ def show(session, say):
     return shown | _open(course.open, course.progress, say)
 
 
+@cache
+def _start(number):
+    """Where a lesson begins; kept, since whatever is turned in the scene has the whole list told again."""
+    return address(lessons()[number].moments["start"])
+
+
 def _row(it, progress, say):
     solved = progress.solved(it.number)
     return {
         "number": it.number,
-        "start": address(it.moments["start"]),
+        "start": _start(it.number),
         "label": f"{it.number:02}",
         "title": it.words[say.language].title,
         "time": say("lesson.minutes", n=it.minutes),
