@@ -2,6 +2,7 @@
 
 import asyncio
 import errno
+import gc
 import importlib.util
 import sys
 import webbrowser
@@ -135,6 +136,7 @@ def _run(session, port, open_browser, number=None, framed=False, engine="numpy")
 
     server.controller.on_server_bind.add(bind)
     server.controller.on_server_ready.add(ready)
+    gc.freeze()  # what was imported stays: a search through it for garbage held up whoever waited then
     try:
         if engine == "gl":
             gl.greet()

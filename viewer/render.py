@@ -79,7 +79,8 @@ class Painter:
     def _reporter(self, progress, spp):
         def report(part, total):
             self._check()
-            progress(part / max(total, 1), spp)
+            if part < total:  # else the picture itself tells, and the page is drawn once, not twice
+                progress(part / total, spp)
 
         return report
 

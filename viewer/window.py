@@ -193,10 +193,10 @@ class Window:
         except (TracerError, IndexError):
             self.painting.tell_begun()  # what panels keep of the scene may be gone
             raise
+        self.painting.begin()  # first: it goes on beside what follows
         self.stage.refit(self.session.scene)
         self._push_surfaces()
         self.state.update({"touched": True, "message": ""})
-        self.painting.begin()
         self.refresh("picture")
 
     def give(self, given):
