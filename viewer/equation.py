@@ -75,11 +75,12 @@ def formulas(path, index, settings, say):
         }
     product = _traced(product, path, index)
     factors = (*product.over, *product.under)
+    known = not np.isnan(product.value).all()  # else factors are missing: a log need not have them
     return {
         "symbolic": _symbolic(product),
         "rows": [{"channel": c, "math": _numeric(product, k)} for k, c in enumerate(CHANNELS)],
         "result": several(product.recorded),
-        "differs": "" if product.agrees else several(product.value),
+        "differs": several(product.value) if known and not product.agrees else "",
         "legend": [_explained(factor, path, event.kind, say) for factor in factors],
         "weight": _weight(event, settings, say),
     }

@@ -89,6 +89,9 @@ def test_what_a_log_need_not_have_is_no_dash_in_a_sentence(tmp_path):
     path = pixel(trace, 3, 5).paths[0]
     said = [caption(e, trace.scene, say) for say in map(Speaker, LANGUAGES) for e in path.events]
     assert len(said) > 10 and not any("–" in text or "?" in text or "nan" in text for text in said)
+    told = [formulas(path, index, trace.settings, SAY) for index in range(len(path.events))]
+    assert any("?" in row["math"] for one in told for row in one["rows"])  # a factor is missing
+    assert not any(one["differs"] for one in told)
 
 
 def test_one_thing_is_not_said_in_the_plural():
