@@ -4,7 +4,7 @@ import os
 import sys
 import warnings
 
-from cyclopts import App, CycloptsError, Group
+from cyclopts import App, CycloptsError, Group, MissingArgumentError
 
 from tracer.settings import TracerError
 from viewer.spoken_help import SpokenFormatter
@@ -15,6 +15,12 @@ COMMANDS = (
     "view", "render", "inspect", "doctor", "twin", "query", "diff", "check", "bsdf", "bench", "export", "log",
     "bugs", "lesson",
 )  # fmt: skip
+
+# What follows a command that needs something, as in the README.
+EXAMPLES = {
+    "render": "cornell", "inspect": "cornell", "doctor": "cornell", "twin": "cornell --bug D01",
+    "diff": "a.exr b.exr", "check": "my_tracer.py", "export": "cornell",
+}  # fmt: skip
 
 
 def _version():
@@ -27,7 +33,7 @@ def command_line(say):
     """The command line, its help in one language."""
     app = App(
         name="castray",
-        help=f"{say('command')}\n\n{say('command.lang')}",
+        help=f"{say('command')}\n\n{say('command.begin')}\n\n{say('command.lang')}",
         help_format="plaintext",
         version=_version,
         group_commands=say("help.commands"),
@@ -66,6 +72,16 @@ def _say(message):
     print(f"castray: {''.join(shown)}", file=sys.stderr)
 
 
+def _told(error):
+    """An error in one line; of what a command lacks, with an example."""
+    line = " ".join(str(error).split())
+    command = (getattr(error, "command_chain", None) or ("",))[0]
+    name = getattr(getattr(error, "argument", None), "name", "")
+    if isinstance(error, MissingArgumentError) and command in EXAMPLES and not name.startswith("-"):
+        return f"{command}: {name} is missing; for example: castray {command} {EXAMPLES[command]}"
+    return line
+
+
 def main(words=None):
     """Run `castray WORDS`. Bad input is one line on standard error and exit code 2."""
     for stream in (sys.stdout, sys.stderr):
@@ -80,7 +96,7 @@ def main(words=None):
                 words = [*words[1:], "--help"]
             code = command_line(Speaker())(words, exit_on_error=False, print_error=False)
     except (TracerError, CycloptsError) as error:
-        _say(Speaker().error(" ".join(str(error).split())))
+        _say(Speaker().error(_told(error)))
         sys.exit(2)
     except MemoryError:
         _say(Speaker()("told.memory"))

@@ -13,7 +13,7 @@ from rich.cells import cell_len
 from suite import castray
 
 from viewer import spoken_help
-from viewer.cli import COMMANDS, main
+from viewer.cli import COMMANDS, EXAMPLES, main
 from viewer.folded import ends_of_lines
 from viewer.spoken_help import name_of
 from viewer.words import LANGUAGES, Speaker, areas
@@ -50,6 +50,20 @@ def test_a_command_that_is_not_there_is_named_with_one_that_is():
     ran = castray("rendr")
     assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1
     assert "rendr" in ran.stderr and "render" in ran.stderr
+
+
+@pytest.mark.parametrize(("command", "said"), [*EXAMPLES.items()])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_command_without_what_it_needs_says_an_example(command, said, language, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([command, "--lang", language])
+    line = capsys.readouterr().err
+    assert ended.value.code == 2 and line.count("\n") == 1 and line.endswith(f"castray {command} {said}\n")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_list_of_commands_says_where_to_begin(language, capsys):
+    assert "castray view cornell_unit" in " ".join(helped(capsys, "--lang", language).split())
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 WORDS = {
     "en": {
-        "exam.would": "Holds the laws of light transport against {paths:,} paths of the picture: about {seconds} s.",
+        "exam.would": "Holds the laws of light transport against {paths:,} of castray's own paths: about {seconds} s.",
         "exam.recording": "Holds the laws of light transport against the recording.",
         "exam.busy": "examining",
         "exam.done": "{paths:,} paths were examined.",
@@ -25,7 +25,7 @@ WORDS = {
         "ui.exam_missing": "what is missing",
     },
     "zh": {
-        "exam.would": "用光传输定律检验图像的 {paths:,} 条路径：约 {seconds} 秒。",
+        "exam.would": "用光传输定律检验 castray 自己的 {paths:,} 条路径：约 {seconds} 秒。",
         "exam.recording": "用光传输定律检验这份记录。",
         "exam.busy": "正在检验",
         "exam.done": "已检验 {paths:,} 条路径。",

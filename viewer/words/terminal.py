@@ -3,6 +3,7 @@
 WORDS = {
     "en": {
         "command": "A step-through debugger for path tracing: click a pixel, walk its paths, read every number.",
+        "command.begin": "Begin with castray view cornell_unit. castray doctor FILE says what is wrong with your own picture or log, castray check FILE.py with your own tracer; castray COMMAND --help says more.",
         "command.lang": "Words in English or Chinese: --lang en or --lang zh anywhere on the line; else as LANGUAGE, LC_ALL or LANG say.",
         "command.view": "Open the viewer: click a pixel, step through its paths.",
         "command.render": "Render a scene to a picture.",
@@ -106,6 +107,7 @@ WORDS = {
     },
     "zh": {
         "command": "路径追踪的逐步调试器：点击一个像素，沿它的路径走，读出每个数值。",
+        "command.begin": "先试 castray view cornell_unit。castray doctor FILE 说出你自己的图像或日志哪里不对，castray check FILE.py 检查你自己的追踪器；castray COMMAND --help 说得更多。",
         "command.lang": "显示英文或中文：在命令行任意位置写 --lang en 或 --lang zh；否则依 LANGUAGE、LC_ALL 或 LANG 而定。",
         "command.view": "打开查看器：点击一个像素，逐步查看它的路径。",
         "command.render": "把场景渲染成图像。",
