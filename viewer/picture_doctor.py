@@ -41,7 +41,7 @@ def opinion_on(given, scene, spp=None, progress=None, known=None):
     if known is None:
         known = album(scene, suited(scene, ZOO.values()), progress)
     values, eight_bits, curves = given
-    return judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO), spp), known
+    return judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO, progress), spp), known
 
 
 def _spp(path, options):

@@ -19,6 +19,7 @@ TABLE = Path(__file__).with_name("cornell.npz")
 SIDE, SPP, SEED = 40, 256, 20_000  # of the table
 QUICK_SIDE, QUICK_SPP = 24, 16  # of scenes without a table
 _FEW, _MANY = (32, 16), (24, 64)  # side and samples per pixel of mixtures
+_MIXTURES = 10  # that are rendered at most: five of two mistakes, five of three
 # Right tracers: the homework's, in which the bugs are planted, and one that finds lamps by chance alone.
 RIGHTS = (Bug("right", "", "", "", "", {}), Bug("walk", "", "", "", "", {}, integrator="walk"))
 _EVERY = 4  # levels of samples per pixel: 1, 4, 16, ...
@@ -141,12 +142,20 @@ def stored(file=TABLE):
     return Album(picture, rights, every, dict(zip(ids, rules, strict=True)))
 
 
-def mixtures(scene, zoo):
+def mixtures(scene, zoo, progress=None):
     """A function from ids and samples per pixel to the Looks of all these mistakes at once; None where they
-    replace the same step."""
+    replace the same step. progress(done, total) is told of each that is rendered."""
+    done = 0
 
     def mixed(ids, spp):
+        nonlocal done
         bug = all_at_once([zoo[name] for name in ids])
-        return bug and looks(scene, bug, *(_FEW if spp <= _FEW[1] else _MANY))[0]
+        if bug is None:
+            return None
+        found = looks(scene, bug, *(_FEW if spp <= _FEW[1] else _MANY))[0]
+        done += 1
+        if progress:
+            progress(done, max(done, _MIXTURES))
+        return found
 
     return mixed

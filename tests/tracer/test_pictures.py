@@ -13,7 +13,7 @@ import pytest
 from cases import loaded, slow_but
 
 import tracer
-from lessons.zoo import ZOO, alike
+from lessons.zoo import ZOO, alike, pictures
 from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, suited
 from tracer.doctor.picture import Hypothesis, features, fit, judged, likelier_curve, resampled
 from tracer.doctor.picture.walls import shown
@@ -184,3 +184,14 @@ def test_the_table_counts_look_alikes_and_no_part_of_a_mixture():
     assert picture_table.rank((first, second), "D10") == 2
     assert picture_table.rank((first, second), "E01") is None
     assert picture_table.rank((Hypothesis(("castray",)),), "E01+D01+D06") == 1
+
+
+def test_it_is_told_how_many_mixtures_are_rendered(monkeypatch):
+    monkeypatch.setattr(pictures, "looks", lambda *_: ("looks", None))
+    told = []
+    mixed = mixtures(SCENE, ZOO, lambda done, total: told.append((done, total)))
+    assert mixed(("E01", "D06"), 16) == "looks"
+    assert mixed(("E01", "E02"), 16) is None  # they replace the same step
+    for _ in range(11):
+        mixed(("E01", "D06"), 64)
+    assert told[0] == (1, 10) and told[9:] == [(10, 10), (11, 11), (12, 12)]
