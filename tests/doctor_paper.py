@@ -19,6 +19,7 @@ SECTIONS = {
     "pictures": ("From a picture alone", "make picture-table"),
     "alarms": ("False alarms", "make false-alarms"),
     "outside": ("Bugs outside the catalogue", "python tests/doctor_outside.py"),
+    "third": ("A third batch outside the catalogue", ""),
     "tried": ("Tried as a new user", ""),
     "large": ("A million vertices", "python tests/large_logs.py"),
 }
@@ -37,7 +38,7 @@ def write(name, text, paper=PAPER):
     parts = [HEAD]
     for key, (title, command) in SECTIONS.items():
         if key in there:
-            by = f"By `{command}`.\n\n" if command else ""  # one is by hand
+            by = f"By `{command}`.\n\n" if command else ""  # two are by hand
             parts.append(f"\n## {title}\n\n{by}{_SECTION.format(name=key, text=there[key])}")
     paper.write_text("".join(parts), encoding="utf-8")
 
