@@ -19,7 +19,9 @@ def _not_finite(evidence, kind, field):
     column = evidence(f"{kind}.{field.name}")
     if column.dtype.kind in "biu":
         return np.zeros(column.shape[-1], bool)
-    bad = np.isnan(column) if f"{kind}.{field.name}" in _INFINITE else ~np.isfinite(column)
+    name = f"{kind}.{field.name}"
+    certain = name in _INFINITE or name in evidence.trace.assumed  # worked out edge on
+    bad = np.isnan(column) if certain else ~np.isfinite(column)
     return bad.reshape(-1, column.shape[-1]).any(axis=0)
 
 

@@ -61,7 +61,7 @@ class Bounces(Stages):
             made[:, rows] = bounce["f"] * cos / pdf
         if bounce["pdf"] is None:
             made = np.nan_to_num(made, nan=0.0, posinf=0.0)
-        elif {"bounce.f", "bounce.pdf"} <= self.rebuilt:  # a mirror's are not to be asked for
+        elif "bounce.pdf" in self.rebuilt:  # a mirror's are not to be asked for
             mirrors = rows[bounce["delta"].astype(bool)]
             made[:, mirrors] = np.where(np.isfinite(made[:, mirrors]), made[:, mirrors], 1.0)
         q = np.where(np.isfinite(self.q) & self.bounced, self.q, 1.0)
