@@ -117,9 +117,9 @@ class Stages:
             return None
         if column is None or np.count_nonzero(given) < 0.5 * given.size:
             self.rebuilt.add(key)
+        if column is None:
             if not of_log:
                 self.assumed.add(key)
-        if column is None:
             return rest
         np.copyto(column, rest, where=~given)
         return column
