@@ -8,7 +8,7 @@ from logs import HEADER, INNER, OUTER, write_log
 from suite import castray
 
 import tracer
-from tracer.trace.jsonl import read_log
+from tracer.trace.jsonl import geometry, read_log
 
 EYE, FLOOR, ON_LAMP = (np.array(p, float) for p in ((278, 273, -800), (450, 0, 110), (278, 548.7, 280)))
 
@@ -78,3 +78,15 @@ def test_a_log_in_which_little_is_said_is_not_called_right_without_a_word(writte
     done = castray("doctor", path, "--scene", "cornell")
     assert done.returncode == 0 and "light.q" in done.stdout and "not all laws" in done.stdout
     assert not json.loads(castray("doctor", path, "--scene", "cornell", "--json").stdout)["findings"]
+
+
+def test_points_that_rounding_puts_beside_an_edge_lie_on_the_face():
+    scene = tracer.load("many_lights").at(tracer.Settings(precision=64))
+    panel = 37
+    q = np.array([[-5.3088], [3.95], [2.045]])  # on its edge, in six digits
+    beside = q + [[0.0], [0.0], [1e-6]]
+    wi = np.array([[0.443258], [0.495161], [-0.74722]])
+    for p in (q, beside):
+        assert geometry.primitives_at(scene, p - wi, wi, p).tolist() == [panel]
+    away = q + [[0.0], [-0.2], [0.0]]
+    assert geometry.primitives_at(scene, away - wi, wi, away).tolist() == [-1]

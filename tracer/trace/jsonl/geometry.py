@@ -7,6 +7,7 @@ import numpy as np
 LANES = 1 << 16  # rays that are asked for at once
 NEAR = 1e-3  # share of the scene's size by which a logged point may be off its surface
 SLACK = 1e-5  # the same of rounding alone
+FEW = 0.02, 64  # share and number of points at edges at most: more that lie on nothing are elsewhere
 
 
 def scale(scene):
@@ -44,7 +45,7 @@ def primitives_at(scene, o, d, p):
     """Primitive (N,) that points p (3, N), come to along rays, lie on; -1 where there is none nearby.
 
     First whatever lies nearest to p along its own ray, looked for from both sides, since where two surfaces
-    nearly touch each hides the other; where nothing does, along other ways to p.
+    nearly touch each hides the other; where nothing does, along other ways to p, and just beside it.
     """
     reach = NEAR * scale(scene)
     found, off = np.full(p.shape[1], -1), np.full(p.shape[1], reach)
@@ -55,6 +56,24 @@ def primitives_at(scene, o, d, p):
         if not rest.size:
             break
         _nearer(scene, p, np.broadcast_to(way[:, None], p.shape), reach, found, off, rest)
+    rest = np.flatnonzero(found < 0)
+    if 0 < rest.size <= max(FEW[0] * found.size, FEW[1]):
+        found[rest] = _beside(scene, p[:, rest], reach)
+    return found
+
+
+def _beside(scene, p, reach):
+    """Primitives (N,) that end at points p (3, N), which rounding has put beside them; -1 for none."""
+    ways = np.concatenate((np.eye(3), -np.eye(3)))
+    found = np.full(p.shape[1], -1)
+    for aside, way in product(SLACK * scale(scene) * ways, ways):
+        rest = np.flatnonzero(found < 0)
+        there, off = found[rest], np.full(rest.size, reach)
+        start = p[:, rest] + aside[:, None]
+        _nearer(
+            scene, start, np.broadcast_to(way[:, None], start.shape), reach, there, off, np.arange(rest.size)
+        )
+        found[rest] = there
     return found
 
 
