@@ -34,8 +34,8 @@ def truth(page):
     return page.evaluate("() => window.trame.trigger('truth')")
 
 
-def stands_at(page, **place):
-    """Wait until the table, the fields and the server agree that the reader stands there."""
+def shows(page, **place):
+    """Wait until the table and the fields say that the reader stands there."""
     page.wait_for_function(
         """place => {
           const table = document.querySelector("[data-testid=event-table]");
@@ -47,6 +47,11 @@ def stands_at(page, **place):
         }""",
         arg=place,
     )
+
+
+def stands_at(page, **place):
+    """Wait until the table, the fields and the server agree that the reader stands there."""
+    shows(page, **place)
     cursor = truth(page)["cursor"]
     assert {k: cursor[k] for k in place} == place
 
@@ -179,8 +184,8 @@ def test_space_plays_to_the_end_of_the_path_and_pauses(page):
     fill(page, 30, 45)
     page.keyboard.press("Home")
     page.keyboard.press("Space")
-    stands_at(page, event=1)
-    stands_at(page, event=2)
+    shows(page, event=1)
+    shows(page, event=2)
     page.keyboard.press("Space")
     page.wait_for_timeout(300)
     at = truth(page)["cursor"]["event"]

@@ -43,6 +43,7 @@
       let writing = 0;
       const writeSoon = () => { clearTimeout(writing); writing = setTimeout(write, RESTS); };
       const reaching = (event) => { if (event.ctrlKey || event.metaKey || /^F\d/.test(event.key)) write(); };
+      const leaving = (event) => { if (event.target.closest("a[href^='#']")) write(); }; // a link to the address that stands there would lead nowhere
       function reveal(element) {
         const box = element.getBoundingClientRect(), frame = element.closest(".events, .track").getBoundingClientRect();
         const hidden = box.top < frame.top + (element.tagName === "TR" ? 24 : 0) || box.bottom > frame.bottom || box.left < frame.left || box.right > frame.right + 1;
@@ -52,6 +53,7 @@
       onMounted(async () => {
         window.addEventListener("keydown", key, true);
         window.addEventListener("keydown", reaching, true);
+        window.addEventListener("click", leaving, true);
         window.addEventListener("blur", write);
         document.documentElement.addEventListener("pointerleave", write);
         for (const kind of ["keypress", "keyup"]) window.addEventListener(kind, hush, true);

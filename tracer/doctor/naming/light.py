@@ -9,7 +9,7 @@ from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
 _INV_2PI = 0.5 / np.pi
-_A_TOSS = (0.02, 0.85)  # shares of the light points that rounding may hide
+_A_TOSS = (0.02, 0.95)  # shares of the light points that rounding may hide
 
 
 def _cos_light(case):
