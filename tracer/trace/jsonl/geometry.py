@@ -8,6 +8,7 @@ LANES = 1 << 16  # rays that are asked for at once
 NEAR = 1e-3  # share of the scene's size by which a logged point may be off its surface
 SLACK = 1e-5  # the same of rounding alone
 FEW = 0.02, 64  # share and number of points at edges at most: more that lie on nothing are elsewhere
+WAYS = np.concatenate((np.eye(3), -np.eye(3)))  # (6, 3), along the axes and back
 
 
 def scale(scene):
@@ -51,7 +52,7 @@ def primitives_at(scene, o, d, p):
     found, off = np.full(p.shape[1], -1), np.full(p.shape[1], reach)
     for way in (d, -d):
         _nearer(scene, p, way, reach, found, off, np.arange(p.shape[1]))
-    for way in np.concatenate((np.eye(3), -np.eye(3))):
+    for way in WAYS:
         rest = np.flatnonzero(found < 0)
         if not rest.size:
             break
@@ -64,9 +65,8 @@ def primitives_at(scene, o, d, p):
 
 def _beside(scene, p, reach):
     """Primitives (N,) that end at points p (3, N), which rounding has put beside them; -1 for none."""
-    ways = np.concatenate((np.eye(3), -np.eye(3)))
     found = np.full(p.shape[1], -1)
-    for aside, way in product(SLACK * scale(scene) * ways, ways):
+    for aside, way in product(SLACK * scale(scene) * WAYS, WAYS):
         rest = np.flatnonzero(found < 0)
         there, off = found[rest], np.full(rest.size, reach)
         start = p[:, rest] + aside[:, None]
