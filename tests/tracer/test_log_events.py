@@ -1,12 +1,15 @@
 """Logs of events that say little, and lamps chosen in the program's own way."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import tracer
 from tracer.doctor.evidence import Evidence
+from tracer.integrator import steps
+from tracer.light import choice
 from tracer.trace.gather import gather
 from tracer.trace.jsonl import read_log
 
@@ -114,6 +117,48 @@ def test_lamps_may_be_chosen_with_any_probabilities_that_add_up(pick, taken):
     if taken:
         np.testing.assert_allclose(lamps.pick[light], pick(light, n))
         assert not np.allclose(lamps.pick, own)
+
+
+@pytest.mark.parametrize(
+    ("own", "said", "whole"),
+    [
+        ([0.7, 0.2, 0.06, 0.04], [0.25, 0.25, None, None], [0.25, 0.25, 0.25, 0.25]),
+        ([0.7, 0.2, 0.06, 0.04], [0.5, 0.3, None, None], [0.5, 0.3, 0.12, 0.08]),
+        ([0.7, 0.2, 0.06, 0.04], [0.5, 0.3, 0.15, None], [0.5, 0.3, 0.15, 0.05]),
+        ([0.7, 0.2, 0.06, 0.04], [0.7, 0.2, None, None], None),  # castray's own
+        ([0.7, 0.2, 0.06, 0.04], [0.8, 0.2, None, None], None),  # nothing is left for the others
+        ([0.7, 0.2, 0.06, 0.04], [0.5, np.nan, None, None], None),
+        ([1.0], [0.5], None),
+    ],
+)
+def test_lamps_that_were_never_chosen_share_the_rest_as_the_others_do(own, said, whole):
+    light = np.tile(np.flatnonzero([pick is not None for pick in said]), 3)
+    pick = np.array([said[k] for k in light])
+    for eps in (2.0**-52, 2.0**-23, 1e-6):
+        found = choice.said(
+            light, pick * (1.0 + eps * np.resize([-4.0, 4.0, 0.0], light.size)), np.array(own), eps
+        )
+        assert (found is None) == (whole is None)
+        if whole:
+            np.testing.assert_allclose(found, whole, rtol=0.0, atol=40.0 * eps)
+
+
+def test_the_environment_may_be_chosen_as_often_as_the_sun():
+    settings = tracer.Settings(width=12, height=8, spp=4, strategy="light", precision=64)
+    scene = tracer.load("sky")
+    own = Evidence(gather(scene, settings)).lamps.pick
+
+    def evenly(scene, hit, u):
+        ends = np.r_[0.0, scene.lights.cdf, 1.0]
+        lamp = (2.0 * u[0]).astype(int)
+        first = ends[lamp] + (2.0 * u[0] - lamp) * np.diff(ends)[lamp]
+        light = steps.light_point(scene, hit, np.stack((first, u[1], u[2])))
+        return light._replace(pick=np.full(lamp.shape, 0.5), pdf=light.pdf / light.pick * 0.5)
+
+    trace = gather(scene, settings, replace(steps.RIGHT, light_point=evenly))
+    assert [f.rule for f in tracer.examine(trace).causes] == ["pdf-of-environment"]
+    trace.tables["escape"].columns["pdf_light"] *= 0.5 / own[0]
+    assert not tracer.examine(trace).causes
 
 
 def test_null_stands_for_no_shape_in_whichever_lines_it_is(read):

@@ -7,9 +7,9 @@ import numpy as np
 
 from tracer.doctor.compare import judged
 from tracer.frame import dot
+from tracer.light import choice
 from tracer.light.sample import DELTA, Ball, luminance
 
-_EVEN = 16.0  # machine epsilons by which probabilities of one lamp may differ, and their sum from 1
 _SMALL = 1e-4  # sr: seen so small a lamp may be sampled by its area where it should be by its solid angle
 
 
@@ -41,23 +41,9 @@ class Lamps:
         return found / found.sum()
 
     def listen(self, light, pick, eps):
-        """Take over the probabilities with which light samples (E,) say that lamps were chosen, where they
-        are one number for each lamp and add up to 1: by power, by area or all alike, any of it is in order.
-        What they leave over is shared by lamps that were never chosen."""
-        size = len(self.scene.light_names)
-        if size < 2 or self.scene.definition.emitters or not light.size:
-            return
-        low, high = np.full(size, np.inf), np.full(size, -np.inf)
-        np.minimum.at(low, light, pick)
-        np.maximum.at(high, light, pick)
-        seen, near = np.isfinite(low), _EVEN * eps
-        if not ((low > 0.0) & (high - low <= near * high))[seen].all():
-            return
-        if (np.abs(high - self.by_power) <= near * high)[seen].all():
-            return
-        rest = 1.0 - high[seen].sum()
-        if abs(rest) <= near if seen.all() else rest > near:
-            self.said = np.where(seen, high, rest / max(1, np.count_nonzero(~seen)))
+        """Take over the probabilities with which light samples (E,) say that lamps were chosen: by power, by
+        area or all alike, any of it is in order."""
+        self.said = choice.said(light, pick, self.by_power, eps)
 
     @cached_property
     def is_delta(self):
@@ -77,9 +63,16 @@ class Lamps:
         direction to q (3, N) on lamps' primitives (N,); area: by area whatever the settings say."""
         scene = self.by_area if area else self.scene
         found = scene.lights.area.pdf(primitive, p, q, self.brute.normals(q, primitive))
-        if self.said is None:
-            return found
-        return found * (self.said / self.by_power).take(self.scene.light_of.take(primitive))
+        return self._as_said(found, self.scene.light_of.take(primitive))
+
+    def surrounding(self, d):
+        """Density (N,) in sr^-1, choice of the light included, with which light samples go in directions
+        d (3, N) of the environment."""
+        return self._as_said(self.scene.environment(d)[1], self.scene.lights.surrounding)
+
+    def _as_said(self, density, light):
+        """Densities (N,) of light samples with the program's own probabilities of the lights (N,)."""
+        return density if self.said is None else density * (self.said / self.by_power)[light]
 
     def hidden(self, p, primitive, room):
         """Whether lamps are spheres that are dark from p (3, N): an outward one from inside, an inward one

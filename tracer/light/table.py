@@ -12,7 +12,8 @@ class Lights:
 
     faces: tuple of area.ShiningFace. radiance: (3, L) of each shining shape. others: emitters that are no
     shapes, none of them without power. ball: the scene's. The probability of a light is proportional to the
-    luminance of its power, that of its faces to their areas.
+    luminance of its power, that of its faces to their areas. surrounding: the number of the environment, None
+    where there is none.
     """
 
     def __init__(self, faces, radiance, others, ball, dtype, light_sampling):
@@ -32,7 +33,7 @@ class Lights:
         self._others = [other.ready(dtype, ball) for other in others]
         self.any_delta = any(other.technique == DELTA for other in others)
         surrounding = [k for k, other in enumerate(others) if hasattr(other, "radiance")]
-        self._surrounding = surrounding[0] if surrounding else None
+        self.surrounding = shapes + surrounding[0] if surrounding else None
 
     def sample(self, p, u):
         """A point on a light for each receiver p (3, N), from u (3, N), as a LightSample."""
@@ -77,10 +78,10 @@ class Lights:
     @property
     def surround(self):
         """Whether rays that leave the scene find light."""
-        return self._surrounding is not None
+        return self.surrounding is not None
 
     def environment(self, d):
         """Radiance (3, N) of the environment in directions d (3, N), and the density (N,) in sr^-1 with which
         sample gives them, choice of the light included."""
-        light = self._others[self._surrounding]
-        return light.radiance(d), light.pdf(d) * self._pick[self._shapes + self._surrounding]
+        light = self._others[self.surrounding - self._shapes]
+        return light.radiance(d), light.pdf(d) * self._pick[self.surrounding]

@@ -102,7 +102,7 @@ def sky_density(evidence):
     """pdf_light of an ESCAPE into an environment."""
     if evidence.scene.lights is None or not evidence.scene.lights.surround:
         return None
-    return _of_escapes(evidence, "pdf_light", lambda d: evidence.scene.environment(d)[1])
+    return _of_escapes(evidence, "pdf_light", evidence.lamps.surrounding)
 
 
 def _weight(kind, densities):

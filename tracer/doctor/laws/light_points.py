@@ -137,7 +137,7 @@ def density(evidence):
     }
 
     def value(wi, around, right):
-        return np.where(around, evidence.scene.environment(wi)[1], right) if around.any() else right
+        return np.where(around, evidence.lamps.surrounding(wi), right) if around.any() else right
 
     far = judged(evidence, "light", others, evidence("light.pdf")[others], value, inputs, "pdf")
     return far if lit is None else joined(lit, far)

@@ -4,6 +4,7 @@ import numpy as np
 
 from tracer.events import TECHNIQUES
 from tracer.frame import dot, length, normalize
+from tracer.light import choice
 from tracer.trace.jsonl import geometry
 from tracer.trace.jsonl.stages import Stages
 
@@ -63,32 +64,11 @@ class Lights(Stages):
             found["pick"] = said("pick", lambda: np.ones(rows.size))
 
     def _picks(self, found):
-        """The probability of each light (L,), as it is logged; None where it is castray's own, or depends on
-        more than the light, or does not add up to 1."""
+        """The probability of each light (L,), as it is logged; None where it is castray's own, or none."""
         light, pick = found.get("light"), found["pick"]
-        if (
-            pick is None
-            or light is None
-            or not pick.size
-            or not np.isfinite(pick).all()
-            or not self.scene.has_lights
-        ):
+        if pick is None or light is None or not self.scene.has_lights:
             return None
-        castrays = self.scene.lights.pick.astype(np.float64)
-        low, high = np.full(castrays.size, np.inf), np.full(castrays.size, -np.inf)
-        np.minimum.at(low, light.astype(np.intp), pick)
-        np.maximum.at(high, light.astype(np.intp), pick)
-        never, room = high < low, 64.0 * self.eps
-        own = np.where(never, castrays, high)
-        rest = 1.0 - own[~never].sum()
-        if (
-            (high[~never] > (1.0 + room) * low[~never]).any()
-            or rest < -room
-            or (rest > room and not never.any())
-        ):
-            return None
-        own[never] *= max(rest, 0.0) / max(own[never].sum(), 1e-300)
-        return None if np.allclose(own, castrays, rtol=4.0 * self.eps, atol=0.0) else own
+        return choice.said(light.astype(np.intp), pick, self.scene.lights.pick.astype(np.float64), self.eps)
 
     def _off(self):
         """How far each coordinate of a logged point may be off by its printing."""

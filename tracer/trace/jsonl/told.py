@@ -107,11 +107,13 @@ class Telling(Lights, Bounces):
         if lit.size:
             p, o = self.places.p[:, rows[lit]], self.places.o[:, rows[lit]]
             ng, _ = geometry.surfaces(self.scene, p, self.places.d[:, rows[lit]], primitive[lit])
-            pdf[lit] = self.scene.lights.area.pdf(primitive[lit], o, p, ng)
-            if self.picks is not None:
-                of = self.scene.light_of.take(primitive[lit])
-                pdf[lit] *= (self.picks / self.scene.lights.pick).take(of)
+            density = self.scene.lights.area.pdf(primitive[lit], o, p, ng)
+            pdf[lit] = self._as_chosen(density, self.scene.light_of.take(primitive[lit]))
         return pdf
+
+    def _as_chosen(self, density, light):
+        """Densities (N,) of light samples, with the logged probabilities of the lights (N,)."""
+        return density if self.picks is None else density * (self.picks / self.scene.lights.pick)[light]
 
     def _bounced(self, bounce, beta, after):
         rows = self.rows["bounce"]
@@ -135,7 +137,10 @@ class Telling(Lights, Bounces):
         around = self.scene.environment(d) if rows.size else None
         Le = around[0] if around is not None else np.zeros(d.shape)
         shining = Le.max(axis=0) > 0.0
-        found = {"d": d, "Le": Le, "pdf_light": around[1] if around is not None else np.zeros(rows.size)}
+        pdf = np.zeros(rows.size)
+        if around is not None:
+            pdf = self._as_chosen(around[1], self.scene.lights.surrounding)
+        found = {"d": d, "Le": Le, "pdf_light": pdf}
         if own is None:
             return found
         with np.errstate(all="ignore"):
