@@ -53,15 +53,16 @@ def serve(
     _run(session, port, open_browser, lesson, framed, engine)
 
 
-def serve_learner(file, scene, settings, port=None, open_browser=True, against=None):
+def serve_learner(file, scene, settings, port=None, open_browser=True, against=None, at=None):
     """Open the viewer on a learner's own tracer of a scene (a file or name), which runs whenever its file is
-    saved; castray's own picture stands there until the first run is done."""
+    saved; castray's own picture stands there until the first run is done, which is opened at the place `at`,
+    (x, y, path, event), where that is there."""
     from viewer.opening.learner import Watched
 
     loaded = tracer.load(scene)
     session = Session(loaded, settings, Scenes(loaded).find)
     session.against = against or ""
-    session.shelf["watched"] = Watched(file, scene, settings)
+    session.shelf["watched"] = Watched(file, scene, settings, at)
     session.stand(None)
     _run(session, port, open_browser)
 

@@ -1,6 +1,7 @@
 """The link that names a moment: scene, settings, pixel, path, event. It holds no key and can be passed on."""
 
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 from lessons.zoo import ZOO
@@ -82,6 +83,22 @@ def parse(text):
             raise TracerError("link: what_if without x and y of the pixel")
         supposed = what_if.parse(words["what_if"].split(BETWEEN))
     return Link(words["scene"], settings, place, changes, supposed, _compared(words.get("compare", "")))
+
+
+def split(what):
+    """A file or folder, and what is said of a place in it behind a #, "" where nothing is."""
+    name, mark, words = what.rpartition("#")
+    return (name, words) if mark and not Path(what).exists() else (what, "")
+
+
+def place_in(what):
+    """A file or folder, and (x, y, path, event) in it where #x=..&y=..&path=..&event=.. follows, else None.
+    Raises TracerError."""
+    name, words = split(what)
+    asked = parse(f"scene=of&{words}") if words else Link("of", Settings())
+    if asked != Link("of", Settings(), asked.place):
+        raise TracerError(f"link: behind {name}# only x, y, path and event are said")
+    return name, asked.place
 
 
 def _compared(name):

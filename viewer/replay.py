@@ -7,6 +7,8 @@ import tracer
 from tracer import what_if
 from tracer.scene_file.change import written
 from tracer.settings import Settings
+from tracer.trace import pixels
+from tracer.trace.folder import at
 from viewer.link import Link
 
 
@@ -55,9 +57,18 @@ def opening(link):
     return f"castray view {shlex.quote('#' + link.write())}"
 
 
-def of_scene(file, scene):
-    """A file of another tracer and its scene, as the commands that judge or open it take them."""
-    return f"{shlex.quote(str(file))} --scene {shlex.quote(str(scene))}"
+def of_scene(file, scene, place=None):
+    """A file of another tracer and its scene, as the commands that judge or open it take them; with
+    (x, y, path, event) for castray view, which opens it there."""
+    named = shlex.quote(str(file)) if place is None else at(file, place)
+    return f"{named} --scene {shlex.quote(str(scene))}"
+
+
+def shown_in_log(diagnosis, trace, file, scene):
+    """The diagnosis of a log's Trace, each finding with the command that opens it at its event."""
+    return diagnosis.shown_by(
+        lambda first: f"castray view {of_scene(file, scene, pixels.place(trace, first))}"
+    )
 
 
 def replayed(diagnosis, scene, settings, recording=None):

@@ -69,6 +69,11 @@ def test_a_wrong_recording_names_the_command_that_opens_it(wrong):
         assert_healthy(wrong)
 
 
+def test_a_wrong_log_names_the_command_that_opens_it(log):
+    with pytest.raises(AssertionError, match=r"castray view '.*#x=3&y=5&path=0&event=\d' --scene cornell"):
+        assert_healthy(log(**{"light.cos": 0.9}), "cornell")
+
+
 def test_what_cannot_be_judged_is_not_healthy(tmp_path, log):
     tracer.record(loaded("cornell"), tracer.Settings(**SMALL), tmp_path / "rows", "paths")
     with pytest.raises(AssertionError, match="no law could be held"):

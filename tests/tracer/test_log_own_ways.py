@@ -1,6 +1,7 @@
 """Logs of programs that go their own ways: lamps left early, own probabilities, points beside walls."""
 
 import json
+import shlex
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from suite import castray
 
 import tracer
 from tracer.trace.jsonl import geometry, read_log
+from viewer import app
+from viewer.cli import main
 
 EYE, FLOOR, ON_LAMP = (np.array(p, float) for p in ((278, 273, -800), (450, 0, 110), (278, 548.7, 280)))
 
@@ -70,6 +73,26 @@ def test_points_beside_a_wall_are_named_with_it(written, cornell):
     findings = tracer.examine(read_log(written(beside), cornell).trace).findings
     (finding,) = [f for f in findings if f.rule == "on-surface"]
     assert finding.bug is None and "floor" in finding.explanation
+
+
+def test_the_command_of_each_finding_opens_the_log_at_its_event(tmp_path, monkeypatch, capsys):
+    spare = [{k: v for k, v in line.items() if not k.startswith("roulette")} for line in (OUTER, INNER)]
+    spare = [line | {"path": 7, "sample": 4, "direct": [0.9, 0.9, 0.9]} for line in spare]
+    monkeypatch.chdir(tmp_path)
+    write_log(tmp_path / "my log.jsonl", OUTER, INNER, *spare, head={"castray": 1, "hemisphere": "uniform"})
+    with pytest.raises(SystemExit):
+        main(["doctor", "my log.jsonl", "--scene", "cornell", "--json"])
+    opened, findings = [], json.loads(capsys.readouterr().out)["findings"]
+    monkeypatch.setattr(app, "_run", lambda session, *_: opened.append(session))
+    assert {finding["first"]["sample"] for finding in findings} == {4}  # the pixel's second path
+    for finding in findings:
+        assert "max-depth" not in finding["command"]
+        with pytest.raises(SystemExit):
+            main(shlex.split(finding["command"])[1:])
+        session, first = opened.pop(), finding["first"]
+        assert (session.cursor.path, session.path.sample) == (1, 4)
+        if first["kind"]:
+            assert (session.event.kind.name, session.event.depth) == (first["kind"], first["depth"])
 
 
 @pytest.mark.slow

@@ -43,6 +43,23 @@ def test_events_are_numbered_without_gaps_whatever_was_left_out(traced):
         assert "light" not in {event.kind.name for event in path.events}
 
 
+def test_the_place_of_a_finding_is_where_its_event_comes_without_the_gaps(traced):
+    _, trace = traced
+    trace = trace.take(trace.paths["sample"] != 0)
+    sparse = replace(trace, tables=trace.tables | {"light": trace.tables["light"].take(slice(0, 0))})
+    shown = pixels.pixel(pixels.without_gaps(sparse), 2, 5)
+    for number, path in enumerate(pixels.pixel(trace, 2, 5).paths):
+        for event in (event for event in path.events if event.kind.name != "light"):
+            first = {"x": 2, "y": 5, "sample": path.sample, "step": event.step}
+            x, y, there, step = pixels.place(sparse, first)
+            assert (x, y, there) == (2, 5, number)
+            assert (shown.paths[there].events[step].kind, shown.paths[there].events[step].depth) == (
+                event.kind,
+                event.depth,
+            )
+        assert pixels.place(sparse, first | {"step": None})[3] is None
+
+
 def test_what_was_not_recorded_is_blank(traced):
     _, trace = traced
     hits = trace.tables["hit"]

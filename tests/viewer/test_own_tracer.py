@@ -1,18 +1,25 @@
 """A learner's tracer in the viewer: run again when its file is saved; mistakes never take the page away."""
 
+import shlex
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 
 import numpy as np
 import pytest
+from logs import INNER, OUTER, write_log
 
 import tracer
 from tracer.learner import starter
+from viewer import app
+from viewer.checking import report
 from viewer.checking.learner import settings_of
+from viewer.checking.submission import row_of
 from viewer.cli import main
 from viewer.opening import learner
 from viewer.opening.learner import Watched
-from viewer.panels import find, what_if
+from viewer.options import CheckOptions
+from viewer.panels import find, share, what_if
 from viewer.panels import given as panel
 from viewer.session import Session
 from viewer.words import Speaker
@@ -73,14 +80,52 @@ def test_a_failed_run_keeps_the_last_good_one_and_says_where_it_failed(file):
         (("my.jsonl",), "give --scene"),
         (("my.jsonl", "--scene", "cornell", "--spp", "2"), "a log has its own settings"),
         (("cornell", "--scene", "cornell"), "scene: is for your own tracer"),
+        (("my.jsonl#x=9", "--scene", "cornell"), "link: x without y of the pixel"),
+        (("my_tracer.py#x=1&y=2&spp=9",), "only x, y, path and event are said"),
+        (("right.jsonl#x=9&y=9", "--scene", "cornell"), "pixel 9 9: no path of it was recorded"),
+        (("right.jsonl#x=3&y=5&event=99", "--scene", "cornell"), "event 99 of 9: there is no such place"),
     ],
 )
 def test_what_will_not_do_is_said_in_one_line(file, monkeypatch, capsys, words, said):
     monkeypatch.chdir(file.parent)
     (file.parent / "my.jsonl").write_text("{}\n", encoding="utf-8")
+    write_log(file.parent / "right.jsonl", OUTER, INNER)
     with pytest.raises(SystemExit) as ended:
         main(["view", *words, "--no-browser"])
     assert ended.value.code == 2 and said in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_the_command_of_each_finding_opens_its_event(file, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    found = row_of(Path(file.name), file.name, "cornell", CheckOptions(size=(6, 6), spp=2, seed=3), 60.0)
+    told = report.as_html([found], "homework", "cornell", Speaker("en"))
+    opened = []
+    monkeypatch.setattr(app, "_run", lambda session, *_: opened.append(session))
+    for finding in found.more:
+        assert f"<code>{escape(finding.command)}</code>" in told
+        with pytest.raises(SystemExit):
+            main(shlex.split(finding.command)[1:])
+        session, first = opened.pop(), finding.first
+        watched = session.shelf["watched"]
+        watched._show = session.give
+        watched._done(learner.given(watched.file, watched.scene, watched.settings))
+        assert (session.cursor.x, session.cursor.y, session.path.sample) == (
+            first["x"],
+            first["y"],
+            first["sample"],
+        )
+        assert (session.event.kind.name, session.event.depth) == (first["kind"], first["depth"])
+        assert share.show(session, Speaker("en"))["command"] == finding.command
+    assert found.more
+
+
+def test_a_place_that_a_saved_file_has_no_more_is_the_first_findings(file):
+    session = Session(tracer.load("cornell"), SETTINGS, None)
+    watched = Watched(file, "cornell", SETTINGS, at=(3, 3, 0, 999))
+    watched._show = session.give
+    watched._done(learner.given(file, "cornell", SETTINGS))
+    assert session.event.kind.name == "light"
 
 
 @pytest.mark.browser

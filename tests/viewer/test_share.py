@@ -5,6 +5,7 @@ import json
 import re
 from contextlib import redirect_stdout
 from copy import copy
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 
 import tracer
 from lessons.zoo import planted
+from viewer.checking.learner import settings_of
 from viewer.cli import main
 from viewer.comparing.rival import Rival
 from viewer.panels import share
@@ -104,7 +106,7 @@ def test_without_a_picture_it_says_so(moment):
 class Watched:
     """A learner's file that is looked at."""
 
-    file, scene = "mine tracer.py", "cornell"
+    file, scene, settings = "mine tracer.py", "cornell", replace(settings_of(None), spp=16)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +120,7 @@ class Watched:
             None,
             {"watched": Watched},
             "right",
-            "castray view 'mine tracer.py' --scene cornell --compare right",
+            "castray view 'mine tracer.py' --scene cornell --spp 16 --compare right",
         ),
     ],
 )

@@ -97,11 +97,12 @@ class Diagnosis:
 
     def shown_in(self, folder):
         """The same of a recording, each finding with the command that opens the viewer at its event."""
-        places = (f.first and [f.first[name] for name in ("x", "y", "sample", "step")] for f in self.findings)
-        more = (
-            replace(f, command=place and view_command(folder, place))
-            for f, place in zip(self.findings, places, strict=True)
-        )
+        names = ("x", "y", "sample", "step")
+        return self.shown_by(lambda first: view_command(folder, [first[name] for name in names]))
+
+    def shown_by(self, command):
+        """The same, each finding with command(first), which opens a viewer at its event."""
+        more = (replace(f, command=command(f.first) if f.first else None) for f in self.findings)
         return replace(self, findings=tuple(more))
 
     def explained_by(self, about):
@@ -309,8 +310,8 @@ def _plain(column, k):
 
 
 def _command(evidence, first):
-    """The words that show the path again."""
-    if first is None:
+    """The words that show the path again; None of a log, whose paths castray would not trace."""
+    if first is None or evidence.trace.culled:
         return None
     words = [
         f"castray inspect {evidence.scene.name} --pixel {first['x']} {first['y']} --sample {first['sample']}"

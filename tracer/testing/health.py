@@ -1,11 +1,14 @@
 """Whether a trace keeps the laws of light transport, as an assertion."""
 
 import os
+import shlex
 
 from tracer.doctor import examine
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.settings import TracerError
 from tracer.trace import Trace, read_trace
+from tracer.trace.folder import at
+from tracer.trace.pixels import place
 
 MOST = 3  # findings told in full
 
@@ -19,7 +22,11 @@ def assert_healthy(trace, scene=None):
     """
     found, folder = _read(trace, scene)
     diagnosis = examine(found)
-    if folder is not None:
+    if folder is not None and found.culled:
+        diagnosis = diagnosis.shown_by(
+            lambda first: f"castray view {at(folder, place(found, first))}{_of(scene)}"
+        )
+    elif folder is not None:
         diagnosis = diagnosis.shown_in(folder)
     elif found.settings.bug:
         diagnosis = diagnosis.replayed_with(f"--bug {found.settings.bug}")
@@ -32,7 +39,7 @@ def assert_healthy(trace, scene=None):
 
 
 def _read(trace, scene):
-    """(the Trace, the folder it was read from if it is a recording)."""
+    """(the Trace, the folder or log that it was read from, if any)."""
     if isinstance(trace, Trace):
         return trace, None
     path = os.fspath(trace)
@@ -42,7 +49,7 @@ def _read(trace, scene):
 
         if scene is None:
             raise TracerError(f"{path}: name the scene that this log is of")
-        return read_log(path, load(scene) if isinstance(scene, (str, os.PathLike)) else scene).trace, None
+        return read_log(path, load(scene) if isinstance(scene, (str, os.PathLike)) else scene).trace, path
     return read_trace(path, scene), path
 
 
@@ -61,9 +68,15 @@ def _said(diagnosis, judged):
             yield f"  {finding.explanation}"
         if finding.first is not None:
             yield f"  first at {_place(finding.first)}"
-            yield f"  {finding.command}"
+            yield from filter(None, [finding.command and f"  {finding.command}"])
     if len(causes) > MOST:
         yield f"... and {', '.join(finding.rule for finding in causes[MOST:])}"
+
+
+def _of(scene):
+    return (
+        f" --scene {shlex.quote(os.fspath(scene) if isinstance(scene, (str, os.PathLike)) else scene.name)}"
+    )
 
 
 def _place(first):

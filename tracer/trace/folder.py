@@ -215,5 +215,10 @@ def flush(path):
 
 def view_command(folder, place):
     """`castray view` of a recording at (x, y, sample, step); without a step at the start of the path."""
-    x, y, sample, step = place
-    return f"castray view {shlex.quote(f'{folder}#x={x}&y={y}&path={sample}&event={step or 0}')}"
+    return f"castray view {at(folder, place)}"
+
+
+def at(what, place):
+    """A recording's folder, or another tracer's file, and (x, y, path, event) in it, as a person types it."""
+    x, y, path, event = place
+    return shlex.quote(f"{what}#x={x}&y={y}&path={path}&event={event or 0}")

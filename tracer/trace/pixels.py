@@ -26,6 +26,20 @@ def without_gaps(trace: Trace):
     return replaced_steps(trace, dict(zip(trace.tables, parts, strict=True)))
 
 
+def place(trace, first):
+    """(x, y, path, event) at which the viewer has what a finding's `first` names, once the trace is without
+    gaps: number of the path among its pixel's, and of the event in it, None for a whole path."""
+    here = np.flatnonzero((trace.paths["x"] == first["x"]) & (trace.paths["y"] == first["y"]))
+    path = trace.paths["sample"][here].tolist().index(first["sample"])
+    if first["step"] is None:
+        return first["x"], first["y"], path, None
+    before = (
+        np.count_nonzero((table.path == here[path]) & (table.step < first["step"]))
+        for table in trace.tables.values()
+    )
+    return first["x"], first["y"], path, int(sum(before))
+
+
 def pixel(trace, x, y):
     """The PixelRecord of pixel (x, y) of a trace without gaps. Raises TracerError where it has no path."""
     rows = np.flatnonzero((trace.paths["x"] == x) & (trace.paths["y"] == y))

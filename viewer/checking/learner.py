@@ -6,7 +6,9 @@ import tracer
 from tracer.doctor.diagnosis import Diagnosis, followed, ranked
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
+from tracer.trace.pixels import place
 from viewer.options import CheckOptions, Unsaid, settings_and_steps
+from viewer.replay import of_scene
 
 SIDE, SPP = 24, int(CheckOptions().spp)  # of the small picture that is traced unless said
 
@@ -21,11 +23,28 @@ def settings_of(options):
     return replace(settings, precision=64, integrator="direct", light_sampling="area", jitter=False)
 
 
+def said(settings):
+    """Settings as options of castray check and castray view, with a space before each; those that they would
+    have anyway are left out."""
+    plain, words = settings_of(None), []
+    if (settings.width, settings.height) != (plain.width, plain.height):
+        words.append(f" --size {settings.width} {settings.height}")
+    for name in ("spp", "seed", "hemisphere", "accel"):
+        if getattr(settings, name) != getattr(plain, name):
+            words.append(f" --{name} {getattr(settings, name)}")
+    return "".join(words)
+
+
 def examined(file, scene, options, seconds, quiet=False):
-    """The Diagnosis of a learner's file, and its Trace. quiet: what it prints goes nowhere. Raises
-    TracerError."""
-    traces = run(file, scene, settings_of(options), seconds, quiet)
-    return judged(*traces), traces[0]
+    """The Diagnosis of a learner's file, each finding with the command that opens it at its event, and its
+    Trace. quiet: what it prints goes nowhere. Raises TracerError."""
+    settings = settings_of(options)
+    whole, bright = run(file, scene, settings, seconds, quiet)
+
+    def opening(first):
+        return f"castray view {of_scene(file, scene, place(whole, first))}{said(settings)}"
+
+    return judged(whole, bright).shown_by(opening), whole
 
 
 def judged(whole, bright):

@@ -19,6 +19,7 @@ COLUMNS = ("name", "state", "passed", "failed", "finding", "certainty", "where",
 _STYLE = {RIGHT: "green", WRONG: "bold red", MAYBE: "yellow", FAILED: "red", SKIPPED: "dim"}
 _FORMULA = tuple("=+-@\t\r\n")  # what a spreadsheet takes for the start of a formula
 _STYLES = Path(__file__).parent.parent / "sharing" / "report.css"
+_COPY = Path(__file__).parent / "copy.js"
 
 
 def cells(row, say):
@@ -135,7 +136,8 @@ def _harmless(text):
 
 
 def as_html(rows, folder, scene, say):
-    """The table as a page that needs nothing else; each name leads to what was found there."""
+    """The table as a page that needs nothing else; each name leads to what was found there, and each finding
+    to the command that opens the viewer at the event that proves it."""
     shown = ("name", "state", "passed", "failed", "finding", "certainty")
     heads = "".join(f'<th scope="col">{escape(say(f"check.column_{name}"))}</th>' for name in shown)
     lines, sections = [], []
@@ -146,14 +148,21 @@ def as_html(rows, folder, scene, say):
         lines.append(f'<tr class="{row.state}" data-state="{row.state}"><td>{name}</td>{rest}</tr>')
         if row.more:
             parts = "".join(_detail(found, say) for found in row.more)
-            command = f"<p><code>{said['command']}</code></p>" if row.command else ""
-            sections.append(f'<section id="s{number}"><h2>{said["name"]}</h2>{command}{parts}</section>')
+            commands = "".join(f"<p>{_command(text, say)}</p>" for text in (row.command, row.opens) if text)
+            sections.append(f'<section id="s{number}"><h2>{said["name"]}</h2>{commands}{parts}</section>')
     title = say("check.title", folder=printable(str(folder)), scene=scene)
     body = (
         f'<main class="report submissions"><h1>{escape(title)}</h1><table><thead><tr>{heads}</tr></thead>'
         f"<tbody>{''.join(lines)}</tbody></table>{''.join(sections)}</main>"
     )
-    return document(title, body, say.language, _STYLES.read_text(encoding="utf-8"))
+    styles, script = (file.read_text(encoding="utf-8") for file in (_STYLES, _COPY))
+    return document(title, body, say.language, styles, script)
+
+
+def _command(text, say):
+    """A command, and a button that copies it."""
+    label, done = (escape(say(f"ui.share_{name}")) for name in ("copy", "copied"))
+    return f'<code>{escape(printable(text))}</code> <button data-copied="{done}">{label}</button>'
 
 
 def _detail(found, say):
@@ -173,9 +182,10 @@ def _detail(found, say):
         rows += [(say("doctor.why"), say.clue(found.explanation))] if found.explanation else []
         rows += [(say("doctor.first"), place(found.first, say))] if found.first else []
         rows += [(say("doctor.lesson"), lesson(found))] if found.lesson is not None else []
-    body = "".join(
-        f'<tr><th scope="row">{escape(a)}</th><td>{escape(printable(b))}</td></tr>' for a, b in rows
-    )
+    cells = [(text, escape(printable(value))) for text, value in rows]
+    if getattr(found, "command", None):
+        cells.append((say("doctor.see"), _command(found.command, say)))
+    body = "".join(f'<tr><th scope="row">{escape(text)}</th><td>{cell}</td></tr>' for text, cell in cells)
     return f'<div class="finding"><h3>{escape(printable(head))}</h3><table>{body}</table></div>'
 
 

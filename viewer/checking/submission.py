@@ -9,7 +9,7 @@ from tracer.doctor.rule import FIRED, NOT_TESTABLE
 from tracer.events import KINDS
 from tracer.picture import is_picture
 from tracer.settings import TracerError
-from viewer.replay import of_scene
+from viewer.replay import of_scene, shown_in_log
 
 RIGHT, WRONG, MAYBE, FAILED, SKIPPED = "right", "findings", "hypotheses", "failed", "skipped"
 STATES = (RIGHT, WRONG, MAYBE, FAILED, SKIPPED)
@@ -23,7 +23,8 @@ class Row:
     state: one of STATES. passed, failed: kinds of event, with path for what is asked of whole paths, of which
     no law is broken, or one. found: a Finding of a trace, a Hypothesis of a picture, or None. error: the line
     that says why it could not be judged, with its path or its name. command: shows it alone. more: all
-    findings with a cause of their own, or all hypotheses.
+    findings with a cause of their own, each with the command that opens the viewer at its event, or all
+    hypotheses. opens: opens the viewer on a picture, beside the right one.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Row:
     error: str = ""
     path: str = ""
     command: str = ""
+    opens: str = ""
 
 
 def row_of(path, name, scene, options, seconds):
@@ -56,18 +58,18 @@ def row_of(path, name, scene, options, seconds):
 
 
 def _of_tracer(path, name, scene, options, seconds):
-    from viewer.checking.learner import examined, settings_of
+    from viewer.checking.learner import examined, said, settings_of
 
     diagnosis, _ = examined(path, scene, options, seconds, quiet=True)
-    s = settings_of(options)
-    traced = f"--size {s.width} {s.height} --spp {s.spp} --seed {s.seed}"
-    return _of_diagnosis(name, diagnosis, f"castray check {of_scene(path, scene)} {traced}")
+    traced = said(settings_of(options))
+    return _of_diagnosis(name, diagnosis, f"castray check {of_scene(path, scene)}{traced}")
 
 
 def _of_log(path, name, scene):
     from tracer.trace.jsonl import read_log
 
-    diagnosis = tracer.examine(read_log(str(path), tracer.load(scene)).trace)
+    trace = read_log(str(path), tracer.load(scene)).trace
+    diagnosis = shown_in_log(tracer.examine(trace), trace, path, scene)
     if all(verdict.state == NOT_TESTABLE for verdict in diagnosis.rules):
         return Row(name, FAILED, error="no law could be held against it: too few fields are logged")
     return _of_diagnosis(name, diagnosis, f"castray doctor {of_scene(path, scene)}")
@@ -94,6 +96,7 @@ def _of_diagnosis(name, diagnosis, command):
 def _of_picture(path, name, scene):
     from tracer.doctor.picture import opened
     from viewer.picture_doctor import album_of, opinion_on
+    from viewer.picture_report import beside
 
     given = opened(path)
     loaded, known = album_of(scene)
@@ -102,7 +105,7 @@ def _of_picture(path, name, scene):
     if opinion.is_right:
         return Row(name, RIGHT, command=command)
     first = opinion.hypotheses[0] if opinion.hypotheses else None
-    return Row(name, MAYBE, found=first, more=opinion.hypotheses, command=command)
+    return Row(name, MAYBE, found=first, more=opinion.hypotheses, command=command, opens=beside(path, scene))
 
 
 def _sorted(kinds):

@@ -1,6 +1,5 @@
 """The command `castray check`."""
 
-import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -64,29 +63,7 @@ def check(
         from viewer.doctor_report import print_diagnosis
 
         print_diagnosis(diagnosis, trace)
-        if diagnosis.findings:
-            print("\n" + Speaker()("doctor.opens", command=_opening(file, scene, trace.settings)))
     return 1 if diagnosis.findings else 0
-
-
-def _opening(file, scene, settings):
-    """The command that shows in the viewer what was judged."""
-    from viewer.checking.learner import settings_of
-
-    words = [
-        "castray view",
-        shlex.quote(str(file)),
-        *(["--scene", shlex.quote(scene)] if scene != "cornell" else []),
-    ]
-    plain = settings_of(None)
-    if (settings.width, settings.height) != (plain.width, plain.height):
-        words.append(f"--size {settings.width} {settings.height}")
-    words += [
-        f"--{name} {getattr(settings, name)}"
-        for name in ("spp", "seed", "hemisphere", "accel")
-        if getattr(settings, name) != getattr(plain, name)
-    ]
-    return " ".join(words)
 
 
 def _folder(folder, scene, seconds, csv, html, options, json):

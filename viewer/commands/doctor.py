@@ -9,7 +9,7 @@ import tracer
 from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
 from viewer.options import DoctorOptions, Json, print_json, scene_of, settings_and_steps, shrunk
-from viewer.replay import replayed
+from viewer.replay import replayed, shown_in_log
 
 
 def doctor(
@@ -57,15 +57,18 @@ def doctor(
         raise TracerError(f"--{'gamma' if gamma is not None else 'output'}: is for a picture; {what} is none")
     if html is not None:
         check_place(html)
-    recorded = is_recording(what)
+    recorded, logged = is_recording(what), what.lower().endswith(".jsonl")
     trace = _recorded(what, scene, options) if recorded else _trace(what, scene, options)
     diagnosis = tracer.examine(trace)
-    if by_chance(diagnosis) and not recorded and not what.lower().endswith(".jsonl"):
+    if by_chance(diagnosis) and not recorded and not logged:
         diagnosis = confirmed(diagnosis, gather(trace.scene, fresh(trace.settings), planted(trace.settings)))
     diagnosis = diagnosis.explained_by(about)
-    diagnosis = replayed(diagnosis, trace.scene, trace.settings, what if recorded else None)
+    if logged:
+        diagnosis = shown_in_log(diagnosis, trace, what, scene)
+    else:
+        diagnosis = replayed(diagnosis, trace.scene, trace.settings, what if recorded else None)
     if html is not None:
-        _write(html, diagnosis, trace, again=not what.lower().endswith(".jsonl"))
+        _write(html, diagnosis, trace, again=not logged)
     if json:
         print_json(diagnosis.as_dict())
     else:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Annotated
 
 from tracer.settings import TracerError
-from viewer.link import is_link
+from viewer.link import is_link, place_in, split
 from viewer.options import CheckOptions, PathOptions, Whole, check_engine, scene_of, settings_and_steps
 
 
@@ -30,7 +30,7 @@ def view(
         viewer's address bar, a folder that castray render --record made (castray query names a place in it:
         DIR#x=..&y=..&path=..), or an .exr that castray render made: it is compared with what it is of. Or
         your own tracer (FILE.py, as of castray check: it runs again whenever you save it) or the log of one
-        (FILE.jsonl), with --scene.
+        (FILE.jsonl), with --scene, and with a place as well: FILE#x=..&y=..&path=..&event=...
     scene
         The scene that your own tracer or log is of (of a tracer, default: cornell).
     lesson
@@ -61,7 +61,7 @@ def view(
         viewer_app.serve_lesson(lesson, port, browser, engine)
         return
     what = "cornell_unit" if what is None else what
-    if what.lower().endswith((".py", ".jsonl")):
+    if not is_link(what) and split(what)[0].lower().endswith((".py", ".jsonl")):
         if engine != "numpy":
             raise TracerError(f"engine: is for castray's own pictures; {what} brings its own")
         _serve_own(what, scene, port, browser, compare, options)
@@ -85,13 +85,14 @@ def view(
     viewer_app.serve(scene_of(what, options), settings, port, browser, against=compare, engine=engine)
 
 
-def _serve_own(file, scene, port, browser, compare, options):
+def _serve_own(what, scene, port, browser, compare, options):
     """Open the viewer on a tracer in Python or on a log."""
     from viewer import app as viewer_app
     from viewer.checking.learner import settings_of
     from viewer.comparing.rival import known
     from viewer.opening.given import of_log
 
+    file, place = place_in(what)
     if not Path(file).is_file():
         raise TracerError(f"{file}: there is no such file")
     if compare is not None and not known(compare):
@@ -99,10 +100,10 @@ def _serve_own(file, scene, port, browser, compare, options):
     if file.lower().endswith(".jsonl"):
         if options is not None:
             raise TracerError(f"{file}: a log has its own settings; leave out the path options")
-        viewer_app.serve_given(of_log(file, scene), port, browser, compare)
+        viewer_app.serve_given(of_log(file, scene, at=place), port, browser, compare)
         return
     settings = settings_of(_of_own(file, options))
-    viewer_app.serve_learner(file, scene or "cornell", settings, port, browser, compare)
+    viewer_app.serve_learner(file, scene or "cornell", settings, port, browser, compare, place)
 
 
 def _of_own(file, options):

@@ -1,6 +1,6 @@
 """Paths of another tracer as the viewer shows them: read from a log, or made by a learner's own program."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,9 @@ import numpy as np
 
 import tracer
 from lessons.course import about
+from tracer.settings import TracerError
 from tracer.trace import Trace, pixels
+from viewer.cursor import Cursor
 from viewer.examining import Chart, charted
 from viewer.given import logged_trace
 from viewer.replay import of_scene
@@ -17,19 +19,31 @@ from viewer.replay import of_scene
 
 @dataclass(frozen=True)
 class Given:
-    """name: of the file; trace: the paths, without gaps; chart: what the doctor says of them; judge: the
-    command that judges them in a terminal, words: what it and castray view are told."""
+    """file: as a command names it; of: so the scene; trace: the paths, without gaps; chart: what the doctor
+    says of them; judge: the command that judges them in a terminal; options: that it and castray view are
+    told; at: (x, y, path, event) to open at, if it was asked for."""
 
-    name: str
+    file: str
+    of: str
     trace: Trace
     chart: Chart
     judge: str
-    words: str
+    options: str = ""
+    at: tuple | None = None
+
+    @property
+    def name(self):
+        """Of the file, without its folder."""
+        return Path(self.file).name
 
     @property
     def command(self):
         """What judges them in a terminal."""
-        return f"castray {self.judge} {self.words}"
+        return f"castray {self.judge} {of_scene(self.file, self.of)}{self.options}"
+
+    def opening(self, place):
+        """`castray view` of them at (x, y, path, event)."""
+        return f"castray view {of_scene(self.file, self.of, place)}{self.options}"
 
     @property
     def scene(self):
@@ -52,8 +66,10 @@ class Given:
 
     @property
     def start(self):
-        """(x, y, path, event) to open at: the event that proves the first finding, else where light
-        arrives."""
+        """(x, y, path, event) to open at: what was asked for, the event that proves the first finding,
+        else where light arrives."""
+        if self.at is not None:
+            return self.at
         for finding in self.chart.diagnosis.causes:
             first: Any = finding.first
             if first is not None and first.get("step") is not None:
@@ -73,15 +89,25 @@ class Given:
         return 0 if radiance is None else int(np.argmax(np.nan_to_num(radiance).sum(axis=0)))
 
     def place(self, first):
-        """(x, y, path, event) of what a finding names: a log may lack some samples."""
-        here = (self.trace.paths["x"] == first["x"]) & (self.trace.paths["y"] == first["y"])
-        path = self.trace.paths["sample"][here].tolist().index(first["sample"])
-        return first["x"], first["y"], path, first["step"]
+        """(x, y, path, event) of what a finding names."""
+        return pixels.place(self.trace, first)
+
+    def opened_at(self, place):
+        """The same, to be opened at (x, y, path, event). Raises TracerError where that is not there."""
+        if place is not None:
+            x, y, path, event = place
+            lengths = [len(one.events) for one in self.record(x, y).paths]
+            try:
+                Cursor(x, y, tuple(lengths), path, event)
+            except IndexError as error:
+                raise TracerError(f"link: {error}: there is no such place") from None
+        return replace(self, at=place)
 
 
-def of_log(file, scene, name=None):
-    """The Given in a log of a scene (a file, a name or a Scene), shown under a name. Raises TracerError."""
+def of_log(file, scene, name=None, at=None):
+    """The Given in a log of a scene (a file, a name or a Scene), shown under a name, to be opened at
+    (x, y, path, event). Raises TracerError."""
     trace = pixels.without_gaps(logged_trace(str(file), scene, name))
     diagnosis = tracer.examine(trace).explained_by(about)
     name, of = name or str(file), scene if isinstance(scene, str) else scene.name
-    return Given(Path(name).name, trace, charted(trace, diagnosis), "doctor", of_scene(name, of))
+    return Given(name, of, trace, charted(trace, diagnosis), "doctor").opened_at(at)

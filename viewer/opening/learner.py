@@ -13,10 +13,9 @@ from tracer.learner.run import run
 from tracer.settings import TracerError
 from tracer.trace.jsonl.geometry import ask
 from tracer.trace.trace import Trace
-from viewer.checking.learner import held, together
+from viewer.checking.learner import held, said, together
 from viewer.examining import charted
 from viewer.opening.given import Given
-from viewer.replay import of_scene
 from viewer.worker import Stopped, outcome
 
 SECONDS = 300.0  # that it may take
@@ -28,7 +27,7 @@ def given(file, scene, settings, stopped=lambda: None):
     whole, used = run(file, scene, settings, SECONDS, stopped=stopped)
     first, later = held(whole, used)
     chart = charted(whole, together(first, later).explained_by(about), {v.rule.id: used for v in later.rules})
-    return Given(Path(file).name, _with_f(whole, used), chart, "check", of_scene(file, scene))
+    return Given(str(file), scene, _with_f(whole, used), chart, "check", said(settings))
 
 
 def _with_f(whole: Trace, used: Trace):
@@ -46,12 +45,13 @@ def _with_f(whole: Trace, used: Trace):
 
 class Watched:
     """A learner's file, run again whenever it is saved: what became of the last run, and the last good one.
+    at: the (x, y, path, event) to open it at, the first finding's where its paths do not go there.
 
     show(Given) and told() are called in the page's loop, which `back` hands calls over to.
     """
 
-    def __init__(self, file, scene, settings):
-        self.file, self.scene, self.settings = Path(file), scene, settings
+    def __init__(self, file, scene, settings, at=None):
+        self.file, self.scene, self.settings, self.at = Path(file), scene, settings, at
         self.busy, self.error, self.good, self.runs = True, None, None, 0
         self._ended = threading.Event()
 
@@ -105,6 +105,8 @@ class Watched:
         self._told()
 
     def _done(self, found):
+        with suppress(TracerError):
+            found = found.opened_at(self.at)
         self.busy, self.error, self.good, self.runs = False, None, found, self.runs + 1
         self._show(found)
 

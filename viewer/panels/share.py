@@ -4,6 +4,7 @@ import shlex
 
 from tracer.trace.folder import view_command as of_recording
 from viewer import examining
+from viewer.checking.learner import said
 from viewer.panels.panel import Panel
 from viewer.replay import of_scene, opening, serving
 from viewer.sharing.files import FILES
@@ -28,7 +29,7 @@ def show(session, say):
     ]
     local = session.given is not None or session.recording is not None
     if session.given is not None:
-        command = f"castray view {session.given.words}"
+        command = session.given.opening((c.x, c.y, c.path, c.event))
     elif session.recording is not None:
         command = of_recording(session.recording.path, (c.x, c.y, session.path.sample, c.event))
     else:
@@ -40,8 +41,8 @@ def _again(session, command):
     """What starts the viewer again after it has ended: the moment's command with what no link says. What came
     from the page lies nowhere, and is left out."""
     watched, gl, against = session.shelf.get("watched"), session.shelf.get("gl"), session.against
-    if watched is not None:
-        command = f"castray view {of_scene(watched.file, watched.scene)}"
+    if watched is not None and session.given is None:
+        command = f"castray view {of_scene(watched.file, watched.scene)}{said(watched.settings)}"
     elif not command:
         known = session.scene.name not in session.uploaded
         changes = session.scene.definition.changes

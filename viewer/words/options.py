@@ -9,7 +9,7 @@ WORDS = {
         "option.help": "显示本说明后退出。",
         "option.version": "显示版本后退出。",
         # castray view
-        "option.view.what": "场景文件，或 castray 自带场景的名字（默认：cornell_unit）；查看器地址栏里的链接；castray render --record 写出的文件夹（castray query 会指出其中的位置：DIR#x=..&y=..&path=..）；或 castray render 写出的 .exr，与它所画的场景对比。也可以是你自己的追踪器（FILE.py，同 castray check；每次保存都会重新运行）或它的日志（FILE.jsonl），再加 --scene。",
+        "option.view.what": "场景文件，或 castray 自带场景的名字（默认：cornell_unit）；查看器地址栏里的链接；castray render --record 写出的文件夹（castray query 会指出其中的位置：DIR#x=..&y=..&path=..）；或 castray render 写出的 .exr，与它所画的场景对比。也可以是你自己的追踪器（FILE.py，同 castray check；每次保存都会重新运行）或它的日志（FILE.jsonl），再加 --scene；也可以带上其中的位置：FILE#x=..&y=..&path=..&event=..。",
         "option.view.scene": "你自己的追踪器或日志所用的场景（追踪器的默认：cornell）。",
         "option.view.lesson": "打开这一课和它的场景，不再另选场景。",
         "option.view.port": "在 127.0.0.1 的哪个端口监听（默认：任一空闲端口）。",
