@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 
 MOST_PIXELS = 10**8  # the film then takes 9 GB
+ANY_DEPTH = 2**28  # max_depth of paths that only their own events end: a log that declares none
 
 
 class TracerError(ValueError):
@@ -46,7 +47,7 @@ class Settings:
         -1,
         "longest path: 1 = emission seen directly, 2 = plus direct light, -1 = unlimited",
         least=-1,
-        most=2**28,
+        most=ANY_DEPTH,
     )
     integrator: str = option("path", "which loop", choices=("path", "direct", "walk"))
     strategy: str = option(

@@ -302,3 +302,24 @@ def test_the_table_and_the_alarms_are_written_and_gone_on_with(tmp_path, monkeyp
     doctor_paper.write("table", "new\n", paper)
     text = paper.read_text(encoding="utf-8")
     assert "| D10 |" not in text and "| cornell_unit |" in text
+
+
+@pytest.mark.parametrize("scene", ["cornell", "coloured_glass", "sky"])
+def test_events_without_a_vertex_are_not_judged_by_that_of_another_path(scene):
+    trace = gather(tracer.load(scene), tracer.Settings(width=16, height=16, spp=8, max_depth=6))
+    hits = trace.tables["hit"]
+    kept = np.flatnonzero((hits.path < 1000) | (hits.path >= 1040))
+    bare = replace(trace, tables=trace.tables | {"hit": hits.take(kept)})
+    found, evidence = examine(bare), Evidence(bare)
+    assert {finding.rule for finding in found.findings} <= {"ledger"}  # what their hits brought is not there
+    for kind, rule in (("light", "light-f"), ("bounce", "bounce-f")):
+        path = bare.tables[kind].path
+        lost = (path >= 1000) & (path < 1040)
+        (whole,), (verdict,) = (
+            [v for v in d.rules if v.rule.id == rule] for d in (examine(trace, {rule}), found)
+        )
+        assert verdict.checked < whole.checked and verdict.abstained > whole.abstained
+        assert np.isnan(evidence.at_vertex(kind, "n")[:, lost]).all()
+        assert (evidence.at_vertex(kind, "primitive")[lost] == -1).all()
+        assert (evidence.materials(kind)[lost] == -1).all()
+        assert np.isfinite(evidence.at_vertex(kind, "n")[:, ~lost]).all()

@@ -11,6 +11,7 @@ from suite import ROOT
 
 import tracer
 from tracer.picture import StoredPicture
+from tracer.settings import ANY_DEPTH
 from viewer import picture_examining
 from viewer.opening.uploads import LARGEST, MOST_PIXELS, check_size, named, opened
 from viewer.panels import all_panels
@@ -153,6 +154,7 @@ ODD = {
         {**UP, "sample": 0, "kind": "end", "radiance": [1, 1, 1], "reason": "absorbed"},
         {**UP, "sample": 1, "kind": "hit", "p": [0, 0, 0], "contribution": [2, 2, 2]},
     ],
+    "as long as any": [{**UP, "sample": 0, "kind": "end", "radiance": [0, 0, 0], "reason": "max_depth"}],
 }
 
 
@@ -167,7 +169,7 @@ def test_every_panel_shows_paths_of_which_little_is_logged(lines):
     for event in range(len(session.path.events)):
         session.cursor = session.cursor.at(event)
         for panel in all_panels():
-            panel.show(session, say)
+            assert str(ANY_DEPTH) not in str(panel.show(session, say))  # which the log does not say
 
 
 def sent(server, name, data, **headers):

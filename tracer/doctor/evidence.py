@@ -8,12 +8,13 @@ import numpy as np
 from tracer.doctor.brute import Brute
 from tracer.doctor.lamps import Lamps
 from tracer.doctor.rule import NotRecordedError
-from tracer.events import KINDS
+from tracer.events import HIT, KINDS
 from tracer.frame import dot, length
 
 # Machine epsilons by which a unit vector, or a coordinate as a share of the scene, may be off after the few
 # operations that make it: a turn of a frame and its back (9 products and sums each), or o + t d.
 OFF = 16.0
+_BLANK = {f.name: f.blank for f in HIT.fields}
 _WHOLE = ("index", "shape", "bsdf", "light", "choice")
 _TYPE = {
     f"{kind.name}.{f.name}": bool if f.domain == "flag" else np.intp
@@ -84,8 +85,11 @@ class Evidence:
         return self._columns[name]
 
     def at_vertex(self, kind, name):
-        """A column of the last HIT before each event of a kind; of no meaning where there is none."""
-        return self(f"hit.{name}").take(self.before(kind, "hit"), axis=-1)
+        """A column of the last HIT before each event of a kind; blank, as its Field says, where there is
+        none."""
+        row = self.before(kind, "hit")
+        column = self(f"hit.{name}").take(row, axis=-1)
+        return np.where(row < 0, _BLANK[name], column) if (row < 0).any() else column
 
     @cached_property
     def scale(self):
@@ -163,7 +167,8 @@ class Evidence:
             o = np.where(first, o, self("hit.p").take(vertex, axis=1))
             source = np.where(first, -1, self("hit.primitive").take(vertex))
         if self.count("bounce"):
-            d = np.where(first, d, self("bounce.wi").take(bounce, axis=1))
+            d = np.where(bounce < 0, d, self("bounce.wi").take(bounce, axis=1))
+            o = np.where(first & (bounce >= 0), np.nan, o)
         return o, d, source
 
     @cached_property
@@ -184,8 +189,9 @@ class Evidence:
         return found
 
     def materials(self, kind):
-        """Number of the material at each event's vertex, (E,)."""
-        return self.scene.bsdf_of.take(self.at_vertex(kind, "primitive"))
+        """Number of the material at each event's vertex, (E,), -1 where there is no vertex."""
+        primitive = self.at_vertex(kind, "primitive")
+        return np.where(primitive < 0, -1, self.scene.bsdf_of.take(primitive))
 
     def asked(self, p, n, wo, wi, primitive, what):
         """What the materials' own `eval` or `pdf` (what) say in float64; the plain answer, (3, N) or (N,)."""

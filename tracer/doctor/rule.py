@@ -1,12 +1,13 @@
 """What a rule is, and what it says of a trace."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from tracer.events import KINDS
 
+_AT_VERTICES = ("light", "bounce", "roulette")
 FIRED, CLEAN, NOT_TESTABLE = "fired", "clean", "not_testable"
 
 
@@ -90,6 +91,7 @@ def applied(rule, evidence):
         return Verdict(rule, NOT_TESTABLE, missing=lacking.args[0])
     if outcome is None:
         return Verdict(rule, NOT_TESTABLE, missing="nothing to judge")
+    outcome = _at_vertices(rule, evidence, outcome)
     failed = int(np.count_nonzero(outcome.wrong))
     unsure = int(np.count_nonzero(outcome.unsure & ~outcome.wrong))
     return Verdict(
@@ -100,6 +102,14 @@ def applied(rule, evidence):
         abstained=unsure,
         outcome=outcome,
     )
+
+
+def _at_vertices(rule, evidence, outcome):
+    """The Outcome that abstains where the law takes the vertex of an event, and the trace has none."""
+    if outcome.kind not in _AT_VERTICES or not any(place.startswith("hit.") for place in rule.needs):
+        return outcome
+    nowhere = evidence.before(outcome.kind, "hit")[outcome.rows] < 0
+    return replace(outcome, wrong=outcome.wrong & ~nowhere, unsure=outcome.unsure | nowhere)
 
 
 def fields_of(domain):

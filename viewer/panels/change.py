@@ -1,6 +1,7 @@
 """Change and see: materials and lights of the scene, and the settings; the picture follows at once."""
 
 from tracer.scene_file.change import changed
+from tracer.settings import ANY_DEPTH
 from viewer.panels.panel import Panel
 from viewer.tuning import dials, knobs, tuned, turned
 
@@ -51,7 +52,7 @@ def _dial(dial, say):
         "key": name,
         "label": say.dial(name),
         "title": f"--{name.replace('_', '-')}: {say.setting(name)}",
-        "value": dial["value"],
+        "value": "" if name == "max_depth" and dial["value"] == ANY_DEPTH else dial["value"],
         "choices": choices,
         "kind": kind,
         "note": say.optional(f"dialed.{dial['value']}", "") if kind == "number" else "",

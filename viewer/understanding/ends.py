@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tracer.settings import ANY_DEPTH
 from viewer.caption import named
 from viewer.understanding.reasons import Reason
 
@@ -33,6 +34,8 @@ def _end(cause, shape, group, record):
     values = {"depth": end.depth, "shape": shape, "most": record.settings.max_depth}
     values["q"] = float(roulette.values["probability"]) if cause == "roulette" and roulette else 1.0
     weight = LESS * sum(0.5 ** p.events[-1].depth for _, p in group)
+    if cause == "max_depth" and values["most"] == ANY_DEPTH:  # of a log that declares none
+        cause = "longest"
     return Reason(f"end.{cause}", len(group), len(record.paths), (k, shown.step), values, weight)
 
 

@@ -72,6 +72,7 @@ def reason(evidence):
     if black.any():
         vertex = evidence.before("end", "hit")[black]
         dark, unsure[black] = _dark(evidence, vertex)
+        unsure[black] |= vertex < 0
         may[black] = dark | ~_plain(evidence.scene).take(_material(evidence, vertex))
     return Outcome(
         "end", rows, ~may & ~unsure, unsure, end, end, "reason", facts={"reasons": np.unique(end[~may])}
@@ -146,7 +147,8 @@ def light_due(evidence):
         )
     hits = evidence.trace.tables["hit"]
     material = scene.bsdf_of.take(evidence("hit.primitive"))
-    many = np.bincount(evidence.before("light", "hit"), minlength=hits.path.size)
+    vertex = evidence.before("light", "hit")
+    many = np.bincount(vertex[vertex >= 0], minlength=hits.path.size)
     wanted = evidence.trace.light_samples
     dark, grazing = _dark(evidence, np.arange(hits.path.size))
     due = ~scene.bsdf.is_delta(material) & ~dark & (hits.depth < settings.last_depth)

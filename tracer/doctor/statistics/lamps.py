@@ -56,7 +56,7 @@ def _faces(evidence):
 
 def spread(evidence):
     """I16: where on its face a light point lies, as two numbers that are uniform if it is right."""
-    rows = _single(evidence, "light", np.arange(evidence.count("light")))
+    rows = _single(evidence, "light", np.flatnonzero(evidence.before("light", "hit") >= 0))
     groups: dict = {}
     for face in _faces(evidence):
         here = rows[evidence("light.primitive")[rows] == face.primitive]

@@ -39,7 +39,8 @@ def _always_recorded(evidence):
     plain = np.array([isinstance(m, _NEVER_ABSORB) for m in scene.definition.bsdfs.values()])
     smooth = np.array([getattr(shape, "normals", None) is not None for shape in scene.shapes])
     primitive = evidence.at_vertex("bounce", "primitive")
-    return plain.take(evidence.materials("bounce")) & ~smooth.take(scene.shape_of.take(primitive))
+    even = plain.take(evidence.materials("bounce")) & ~smooth.take(scene.shape_of.take(primitive))
+    return even & (primitive >= 0)
 
 
 def _kind(use):

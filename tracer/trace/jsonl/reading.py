@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracer.events import KINDS
-from tracer.settings import TracerError
+from tracer.settings import ANY_DEPTH, TracerError
 from tracer.trace.jsonl import (
     calls,
     conventions,
@@ -114,7 +114,7 @@ def _read_off(read):
     if q.size and 0.0 < q[0] <= 1.0 and np.ptp(q) <= 4.0 * read.header.eps:
         found["roulette"] = f"{q[0]:.6g}"
     elif not q.size and read.header.options.get("roulette") is None:
-        found |= {"roulette": "off", "max_depth": 2**28}
+        found |= {"roulette": "off", "max_depth": ANY_DEPTH}
     pdf = _column(read, "bounce", "pdf")
     if pdf.size and np.mean(np.abs(pdf - _UNIFORM) <= 1e-4) > 0.9:
         found["hemisphere"] = "uniform"
