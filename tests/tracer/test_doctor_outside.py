@@ -7,7 +7,7 @@ import doctor_paper
 import numpy as np
 import pytest
 from mutants import changed, traced, with_column
-from outside import MISTAKES, hall, weekend
+from outside import MISTAKES, hall, third_steps, weekend
 
 from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
@@ -32,7 +32,7 @@ def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_findi
     assert MISTAKES["balls right"].diagnosed().findings == ()
 
 
-THIRD = {mistake.id: mistake for mistake in (*weekend.MISTAKES, *hall.MISTAKES)}
+THIRD = {mistake.id: mistake for mistake in (*weekend.MISTAKES, *hall.MISTAKES, *third_steps.MISTAKES)}
 
 
 @pytest.mark.slow
@@ -42,11 +42,45 @@ def test_a_right_program_may_choose_lamps_in_its_own_way_and_log_what_it_does_no
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("id", ["weekend child-twice", "weekend shadow-from-zero", "hall next-lamp"])
+@pytest.mark.parametrize(
+    "id",
+    [
+        "weekend child-twice", "weekend shadow-from-zero", "weekend camera-not-unit",
+        "weekend sum-by-roulette", "hall next-lamp", "hall bulbs-inside-out",
+    ],
+)  # fmt: skip
 def test_a_mistake_of_which_little_is_logged_breaks_its_law_and_gets_no_wrong_name(id):
     causes = THIRD[id].diagnosed().causes
     assert causes[0].rule in THIRD[id].laws
     assert {f.bug for f in causes if f.bug} <= set(THIRD[id].fair)
+
+
+@pytest.mark.parametrize("id", [mistake.id for mistake in third_steps.MISTAKES])
+def test_what_resembles_a_mistake_of_the_catalogue_gets_no_wrong_name(id):
+    causes = THIRD[id].diagnosed().causes
+    assert causes[0].rule in THIRD[id].laws
+    assert {f.bug for f in causes if f.bug} <= set(THIRD[id].fair)
+
+
+def test_the_same_formula_at_some_vertices_only_has_no_name():
+    right = traced("room")
+    table = right.tables["light"]
+    without_cosine = table["contribution"] / np.maximum(table["cos"], np.float32(1e-30))
+    some = np.arange(table.path.size) % 2 == 0
+    named = []
+    for which in (np.ones_like(some), some):
+        wrong = with_column(
+            right, "light.contribution", np.where(which, without_cosine, table["contribution"])
+        )
+        (finding,) = examine(wrong, only={"light-term"}).findings
+        assert finding.explanation.startswith("recorded = right / cos")
+        named.append(finding.bug)
+    assert named == ["D10", None]
+
+
+@pytest.mark.slow
+def test_a_weight_that_is_almost_1_is_told_where_it_counts_twice():
+    assert MISTAKES["weight-twice"].diagnosed().causes[0].explanation == "recorded = right x w"
 
 
 @pytest.mark.parametrize(

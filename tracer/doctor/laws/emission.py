@@ -105,12 +105,12 @@ def sky_density(evidence):
     return _of_escapes(evidence, "pdf_light", evidence.lamps.surrounding)
 
 
-def _weight(kind, densities):
+def _weight(kind):
     def judge(evidence):
         rows = np.flatnonzero((evidence(f"{kind}.Le") > 0.0).any(axis=0))
         if not rows.size:
             return None
-        pdf_bsdf, pdf_light = densities(evidence, rows)
+        pdf_bsdf, pdf_light = DENSITIES[kind](evidence, rows)
         inputs = {"pdf_bsdf": (pdf_bsdf, 0.0), "pdf_light": (pdf_light, 0.0)}
 
         def value(pdf_bsdf, pdf_light):
@@ -134,6 +134,9 @@ def _of_escape(evidence, rows):
         density = np.where(evidence("bounce.delta"), np.inf, evidence("bounce.pdf"))
         pdf = np.where(bounce < 0, np.inf, density.take(bounce))
     return pdf, evidence("escape.pdf_light")[rows]
+
+
+DENSITIES = {"hit": _of_hit, "escape": _of_escape}  # pdf_bsdf and pdf_light (K,) of events (rows) of a kind
 
 
 def _gain(kind):
@@ -208,7 +211,7 @@ RULES = (
         _ONCE,
         _WEIGHT,
         ("hit.w", "hit.Le", "hit.pdf_bsdf", "hit.pdf_light"),
-        _weight("hit", _of_hit),
+        _weight("hit"),
     ),
     Rule(
         "environment-weight",
@@ -216,7 +219,7 @@ RULES = (
         _ONCE,
         _WEIGHT,
         ("escape.w", "escape.Le", "escape.pdf_light", "bounce.pdf", "bounce.delta"),
-        _weight("escape", _of_escape),
+        _weight("escape"),
     ),
     Rule(
         "emission-term",

@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from tracer.doctor.laws.emission import mis
+from tracer.doctor.laws.emission import DENSITIES, mis
 from tracer.doctor.naming.case import SHARE, Clue, first
+from tracer.doctor.naming.weights import wrong_weights
 from tracer.frame import dot
 
 
 def weight(case):
     """The weight of a lamp that is met."""
     settings, recorded = case.evidence.settings, case.recorded
-    pdf_bsdf = case["pdf_bsdf"] if case.has("pdf_bsdf") else np.full(recorded.shape, np.nan)
-    pdf_light = case["pdf_light"]
+    pdf_bsdf, pdf_light = DENSITIES[case.kind](case.evidence, case.rows)
     twice = bool(((recorded == 1.0) & (case.right < 1.0)).mean() >= SHARE)
     never = bool(((recorded == 0.0) & (case.right == 1.0)).mean() >= SHARE)
     depths = ", ".join(map(str, np.unique(case.depth)))
@@ -47,13 +47,17 @@ def weight(case):
                 "recorded = MIS(1, pdf_light) after the camera or a mirror, which no light sample does",
                 lambda: _of_dirac(case, pdf_bsdf, mis(settings, np.ones_like(pdf_light), pdf_light)),
             ),
-            ("M01", "recorded is the weight of the other technique", mis(settings, pdf_light, pdf_bsdf)),
+            *wrong_weights(case, pdf_bsdf, pdf_light),
         ],
-    ) or Clue("M01", "the weights of this light found both ways do not sum to 1")
+    )
 
 
 def _of_dirac(case, pdf_bsdf, predicted):
-    return bool(np.isinf(pdf_bsdf).mean() >= SHARE) and predicted
+    """What is predicted after the camera and Dirac lobes alone; False where others are wrong, too."""
+    dirac = np.isinf(pdf_bsdf)
+    if case.guess is None and dirac.mean() < SHARE:
+        return False
+    return np.where(dirac, predicted, np.nan)
 
 
 def emission(case):

@@ -12,6 +12,7 @@ from tracer.doctor.naming.case import CLOSE, SHARE
 from tracer.frame import dot
 
 _FEWEST = 16  # events that a product has to fit
+_FINE = 16.0  # machine epsilons by which a number may be off that is hardly wrong
 _POWERS = (1, -1, 2, -2)
 _KNOWN = {"pi": np.pi, "2 pi": 2.0 * np.pi, "4 pi": 4.0 * np.pi, "pi^2": np.pi**2}
 _OF = {
@@ -36,18 +37,25 @@ def words(case):
     if case.recorded is None or case.right is None or case.recorded.dtype.kind != "f":
         return ""
     ratio, there = _ratio(case)
-    # What is hardly off agrees with any product that is near 1
-    off = np.abs(ratio - 1.0) > 4.0 * CLOSE
-    there &= off if off.ndim == 1 else off.any(axis=0)
-    if np.count_nonzero(there) < _FEWEST:
-        return ""
-    ratio = ratio[..., there]
-    if (value := _constant(ratio)) is not None:
+    for close in (CLOSE, _FINE * case.evidence.eps):
+        # What is hardly off agrees with any product that is near 1
+        off = np.abs(ratio - 1.0) > 4.0 * close
+        told = there & (off if off.ndim == 1 else off.any(axis=0))
+        if np.count_nonzero(told) >= _FEWEST and (said := _told(case, ratio[..., told], told, close)):
+            return said
+    return ""
+
+
+def _told(case, ratio, there, close):
+    """The words for events whose numbers are off by more than close."""
+    if (value := _constant(ratio, close)) is not None:
         return f"recorded = {_spelled(value)} x right"
     right = np.broadcast_to(case.right, case.recorded.shape)[..., there]
-    if _fits(ratio / right):
+    if _fits(ratio / right, close):
         return "recorded = right^2"
-    return _product(ratio, _quantities(case, there)) or _of_colours(case.recorded[..., there], right)
+    return _product(ratio, _quantities(case, there, close), close) or _of_colours(
+        case.recorded[..., there], right
+    )
 
 
 def _of_colours(recorded, right):
@@ -81,15 +89,15 @@ def _ratio(case):
     return ratio, good[component, np.arange(component.size)]
 
 
-def _constant(ratio):
+def _constant(ratio, close):
     """The number that nearly all ratios are, or None."""
     value = float(np.nanmedian(ratio))
-    return value if np.isfinite(value) and value != 0.0 and _fits(ratio / value) else None
+    return value if np.isfinite(value) and value != 0.0 and _fits(ratio / value, close) else None
 
 
-def _fits(ratio):
+def _fits(ratio, close):
     """Whether nearly all events have ratio 1 in all components that say something."""
-    good = ~(np.abs(ratio - 1.0) > CLOSE) | ~np.isfinite(ratio)
+    good = ~(np.abs(ratio - 1.0) > close) | ~np.isfinite(ratio)
     said = np.isfinite(ratio)
     if ratio.ndim == 2:
         good, said = good.all(axis=0), said.any(axis=0)
@@ -105,7 +113,7 @@ def _spelled(value):
     return f"{value:.4g}"
 
 
-def _product(ratio, quantities):
+def _product(ratio, quantities, close):
     """The words of the first product of one or two quantities, and a constant, that the ratios are."""
     powers = [(name, k, value**k) for name, value in quantities.items() for k in _POWERS]
     for number in (1, 2):
@@ -113,7 +121,7 @@ def _product(ratio, quantities):
             if len({name for name, _, _ in some}) < number:
                 continue
             rest = ratio / np.prod(np.broadcast_arrays(*(value for *_, value in some)), axis=0)
-            value = _constant(rest)
+            value = _constant(rest, close)
             if value is not None and (abs(value - 1.0) <= CLOSE or _spelled(value).strip("1/()") in _KNOWN):
                 return f"recorded = right{_written(some, value)}"
     return ""
@@ -127,7 +135,7 @@ def _written(some, value):
     return "".join(sorted(parts, key=lambda part: part[1] == "/"))
 
 
-def _quantities(case, there):
+def _quantities(case, there, close):
     """Name -> values (..., K) at the events `there`, of those that were recorded and vary."""
     found = {}
     for name in _OF.get(case.kind, ()):
@@ -138,7 +146,7 @@ def _quantities(case, there):
         if np.array_equal(value, case.recorded[..., there], equal_nan=True):
             continue  # the judged number itself says nothing about itself
         some = value[np.isfinite(value) & (value != 0.0)]
-        if some.size and np.ptp(some) > 1e-2 * np.abs(some).max():
+        if some.size and np.ptp(some) > 10.0 * close * np.abs(some).max():
             found[name] = value
     return found
 

@@ -3,14 +3,14 @@
 import numpy as np
 
 from tracer.doctor.laws.emission import mis
-from tracer.doctor.naming.case import SHARE, Clue, first
+from tracer.doctor.naming.case import SHARE, first
 from tracer.doctor.naming.reflection import exchanged, given_to, local, wrong_f
+from tracer.doctor.naming.visibility import visible
+from tracer.doctor.naming.weights import wrong_weights
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
 _INV_2PI = 0.5 / np.pi
-_A_TOSS = 0.02, 0.85  # shares of the light points that rounding may hide
-_OF_DOUBLES = 0.95  # of doubles nine tenths, measured with a tracer in Python
 
 
 def _cos_light(case):
@@ -70,45 +70,6 @@ def _wrong_geometry(case):
 def _survival(case):
     q = case.evidence.settings.roulette
     return float(q) if q not in ("auto", "off") else 1.0
-
-
-def visible(case):
-    """Whether light points are seen."""
-    outcome = case.outcome
-    sure = ~outcome.unsure
-    seen, free = outcome.recorded.astype(bool)[sure], outcome.right.astype(bool)[sure]
-    wrongly_dark, wrongly_seen = ~seen & free, seen & ~free
-    if not wrongly_seen.any() and not (seen & free).any():
-        return Clue(
-            "D04",
-            "no light point at all is seen, though nothing lies before it but the lamp itself",
-            ("D03",),
-        )
-    if not wrongly_seen.any():
-        share = wrongly_dark.sum() / free.sum()
-        most = _A_TOSS[1] if case.evidence.eps > np.finfo(np.float64).eps * 1e3 else _OF_DOUBLES
-        if not _A_TOSS[0] <= share <= most:
-            return Clue(
-                None,
-                f"{share:.1%} of the free light points count as blocked: rounding alone would hide about "
-                "half of them, be it at the lamp or where the shadow ray starts",
-            )
-        return Clue(
-            "D01",
-            f"{share:.0%} of the free light points count as blocked, by the lamp itself: the "
-            "comparison of the two distances has no tolerance, and rounding decides",
-            ("D02",),
-        )
-    dark, hidden = wrongly_dark.mean(), ~free
-    if dark <= 0.01 and (seen & hidden).sum() >= 0.99 * hidden.sum():
-        return Clue("D03", "every blocked light point counts as seen: the test is not made, or reversed")
-    if wrongly_dark.sum() >= 0.99 * free.sum() and wrongly_seen.sum() >= 0.99 * hidden.sum():
-        return Clue("D03", "seen and blocked are exchanged")
-    if not wrongly_dark.any():
-        return Clue(
-            None, f"{wrongly_seen.sum() / hidden.sum():.0%} of the blocked light points count as seen"
-        )
-    return Clue(None, "some free light points count as blocked, and some blocked ones as seen")
 
 
 def density(case):
@@ -228,7 +189,6 @@ def weight(case):
     """The MIS weight of a light sample."""
     settings, pdf = case.evidence.settings, case["pdf"]
     uniform = mis(settings, pdf, np.full_like(pdf, _INV_2PI))
-    other = mis(settings, case["pdf_bsdf"], pdf)
     return first(
         case,
         [
@@ -237,7 +197,6 @@ def weight(case):
                 "recorded = MIS(pdf, 1/(2 pi)): the other density is that of a sampler that is not used",
                 uniform,
             ),
-            ("M01", "recorded is the weight of the other technique", other),
             ("M01", "recorded 1, though bounces find this light, too", np.ones_like(pdf)),
             (
                 "M02",
@@ -246,8 +205,9 @@ def weight(case):
                 if case.has("technique")
                 else False,
             ),
+            *wrong_weights(case, case["pdf"], case["pdf_bsdf"]),
         ],
-    ) or Clue("M01", "the weights of this light found both ways do not sum to 1")
+    )
 
 
 def left(case):
