@@ -82,18 +82,21 @@ def behind_too(scene, hit, u):
     light = scene.sample_light(hit.p, u)
     cos = -dot(light.wi, light.nq)
     behind = (cos < 0.0) & (light.technique == AREA)
+    if not behind.any():  # as where no shape shines
+        return light
     per_angle = light.distance * light.distance / np.where(behind, -cos, 1.0)
     pdf = np.where(behind, _area_density(scene, light) * per_angle, light.pdf).astype(light.pdf.dtype)
-    radiance = scene.lights.area.radiance.take(light.light, axis=1)
+    radiance = scene.lights.area.radiance.take(light.light, axis=1, mode="clip")
     return light._replace(pdf=pdf, Le=np.where(behind, radiance, light.Le))
 
 
 def _area_density(scene, light):
-    """Density (N,) per area of points on the shapes that shine, choice of the lamp included."""
+    """Density (N,) per area of points on shapes that shine, choice of the lamp included; of no meaning for
+    other lights."""
     area = np.concatenate([shape.area() for shape in scene.shapes])
     lamps = scene.light_of >= 0
     total = np.bincount(scene.light_of[lamps], area[lamps])
-    return light.pick / total.take(light.light)
+    return light.pick / total.take(light.light, mode="clip")
 
 
 def lamp_cosine_signed(beta, f, cos, light, w):

@@ -19,6 +19,7 @@ from zoo_looks import LOOKS, OTHER
 
 import tracer
 from lessons import zoo
+from lessons.zoo.pictures import suited
 from tracer import Settings, TracerError
 
 BANDS = 16  # into which a look is cut where it is not known which way a bug changes it
@@ -196,3 +197,11 @@ def test_the_abandoned_castray_is_as_bright_as_it_was(suite_seed, name):
     ratio, error = wrong.mean() / correct.mean(), wrong.std() / np.sqrt(wrong.size) / correct.mean()
     print(f"{name}: {ratio:.3f} +- {error:.3f}")
     assert abs(ratio - ABANDONED_RATIOS[name]) < 0.06 * ABANDONED_RATIOS[name] + 4.0 * error
+
+
+@pytest.mark.parametrize("name", ["coloured_glass", "pool", "sky", "white_furnace"])
+def test_every_mistake_can_be_planted_where_lights_are_no_shapes(name):
+    scene = tracer.load(name)
+    for bug in suited(scene, zoo.ZOO.values()):
+        picture = tracer.render(scene, bug.asked(width=4, height=4, spp=1), steps=bug.steps)
+        assert picture.rgb.shape == (4, 4, 3), bug.id
