@@ -45,6 +45,11 @@ def density_without_sign(scene, hit, wo, wi):
     return steps.pdf(scene, hit, np.stack((wo[0], wo[1], np.abs(wo[2]))), up)
 
 
+def choice_again(scene, hit, u):
+    """The number that chooses the lamp is the point's first coordinate, too."""
+    return scene.sample_light(hit.p, np.stack((u[0], u[0], u[2])))
+
+
 def _of(id, words, laws, scene, settings, fair=(), **changes):
     return Mistake(id, words, laws, partial(diagnosed, scene, settings, changes), fair, "third")
 
@@ -78,5 +83,14 @@ MISTAKES = (
         {},
         eval=without_sign,
         pdf=density_without_sign,
+    ),
+    _of(
+        "choice-again",
+        "the number that chooses the lamp is the point's first coordinate, too",
+        ("lamp-points",),
+        "plates",
+        _BY_AREA,
+        ("D17",),
+        light_point=choice_again,
     ),
 )

@@ -82,7 +82,12 @@ _PIECES = (
     ),
     ("recorded is the weight of the other technique", "记录的是另一种技术的权重"),
     ("the lamp shines from its back", "灯从背面发光"),
-    ("the weights of this light found both ways do not sum to 1", "这束光两种找法的权重之和不是 1"),
+    (
+        "the weights of this light found both ways do not sum to 1, all over",
+        "这束光两种找法的权重之和处处都不是 1",
+    ),
+    ("the square of a sum, where a sum of squares belongs", "用了和的平方，而应当是平方的和"),
+    ("but others of the same sort are right", "但同类的其他事件是对的"),
     ("every bounce goes away from the origin of space", "每次反弹都背离坐标原点"),
     ("the position stands for the normal", "位置被当成了法线"),
     ("nothing is left in whole rows of the picture", "图像中有整行什么也没有"),
@@ -156,6 +161,19 @@ _PIECES = (
         "{share} 的可见光源点算作被灯自身挡住",
     ),
     ("{share} of the free light points count as blocked", "{share} 的可见光源点算作被挡"),
+    ("all of those on {names}", "{names} 上的全部"),
+    ("neighbouring points alike", "相邻的点一样"),
+    ("it is not rounding that decides", "不是由舍入决定的"),
+    ("seen is what the camera sees, not the vertex", "算作可见的是相机看到的，不是顶点看到的"),
+    ("the shadow ray starts at the camera", "阴影光线从相机出发"),
+    (
+        "the number that chooses the lamp is the first coordinate of the point on it, too",
+        "选灯用的随机数又用作灯上的点的第一个坐标",
+    ),
+    (
+        "the number that chooses the lamp is the second coordinate of the point on it, too",
+        "选灯用的随机数又用作灯上的点的第二个坐标",
+    ),
     (
         "rounding alone would hide about half of them, be it at the lamp or where the shadow ray starts",
         "单靠舍入只会挡掉大约一半，无论是在灯处还是在阴影光线的起点",

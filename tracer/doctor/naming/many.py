@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from tracer.doctor.naming.case import Clue
+from tracer.doctor.naming.case import SHARE, Clue
 from tracer.doctor.statistics.cells import uniform
 
+_FEW = 20  # points on a lamp
 _LIKELY = 1e-3  # a guess at how numbers were made must make them likely
 
 
@@ -37,6 +38,12 @@ def points(case):
     along = np.corrcoef(raw)[0, 1]
     if abs(along) > 0.999:
         return Clue("D17", "the two coordinates of every point are the same number: all lie on the diagonal")
+    if _of_the_choice(case.evidence, facts["primitive"], a):
+        return Clue("D17", "the number that chooses the lamp is the first coordinate of the point on it, too")
+    if _of_the_choice(case.evidence, facts["primitive"], b):
+        return Clue(
+            "D17", "the number that chooses the lamp is the second coordinate of the point on it, too"
+        )
     if facts["shape"] == "sphere":
         if uniform(raw[0]) > _LIKELY and uniform(raw[1]) > _LIKELY:
             return Clue("D18", "points are uniform in the sphere's two angles: too many lie at its poles")
@@ -53,6 +60,15 @@ def points(case):
                 )
                 return Clue(_root_of_the_choice(low), f"{words}: they are not chosen by area")
     return None
+
+
+def _of_the_choice(evidence, which, number):
+    """Whether a number (N,) keeps on each lamp (N,) to an interval as wide as the lamp's probability: in such
+    a one lies the number that chose the lamp."""
+    pick = evidence.lamps.pick.take(evidence.scene.light_of)
+    faces = [f for f, many in enumerate(np.bincount(which)) if many >= _FEW and pick[f] < 0.6]
+    kept = [np.ptp(number[which == f]) <= 1.2 * pick[f] for f in faces]
+    return bool(kept and np.mean(kept) >= SHARE)
 
 
 def _root_of_the_choice(low):

@@ -48,7 +48,7 @@ def _hidden(case, rows, seen):
     if not _A_TOSS[0] <= share <= most:
         return Clue(None, f"{words}: {_ROUNDING}")
     if not _tossed(case.evidence, rows, seen):
-        return Clue(None, f"{words}, {_which(case.evidence, rows, seen)}: it is not rounding that decides")
+        return Clue(None, f"{words}: {_which(case.evidence, rows, seen)}; it is not rounding that decides")
     return Clue(
         "D01",
         f"{share:.0%} of the free light points count as blocked, by the lamp itself: the "
@@ -79,8 +79,7 @@ def _which(evidence, rows, seen):
     whole = dark >= SHARE * np.maximum(many, 1)
     if dark[whole].sum() >= SHARE * dark.sum() and not whole[many > 0].all():
         names = [name for name, all_dark in zip(evidence.scene.light_names, whole, strict=True) if all_dark]
-        more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-        return f"all of those on {', '.join(names[:3])}{more}"
+        return f"all of those on {', '.join(names[:3])}{', ...' if len(names) > 3 else ''}"
     return "neighbouring points alike"
 
 

@@ -82,6 +82,22 @@ def unrelated(a, b):
     return float(2.0 * norm.sf(abs(z)))
 
 
+def means(values, group):
+    """Bound on the chance that independent uniform numbers (N,) have means so far from 1/2 in groups (N,), by
+    number.
+
+    x, the sum of 12 n (mean - 1/2)^2 over L groups, is chi-square but for its tail, which Chernoff's bound
+    on that of chi-square holds, too: (x / L)^(L/2) exp((L - x) / 2). For uniform numbers have no larger
+    moments than normal ones of their variance, so that E exp(s x) is at most (1 - 2 s)^(-L/2).
+    """
+    many = np.bincount(group)
+    off = np.bincount(group, values - 0.5)[many > 0]
+    x, groups = (12.0 * off * off / many[many > 0]).sum(), off.size
+    if not x > groups:
+        return 1.0
+    return float(np.exp(0.5 * (groups - x + groups * np.log(x / groups))))
+
+
 def balanced(differences):
     """Bound on the chance that independent differences (N,), each as likely as its negative, add up so far
     from 0 in units of the root of the sum of their squares: 2 exp(-t^2 / 2) (Efron 1969)."""

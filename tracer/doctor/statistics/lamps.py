@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tracer.doctor.statistics.cells import FEWEST, Cell, counts, square, uniform
+from tracer.doctor.statistics.cells import FEWEST, Cell, counts, means, square, uniform
 from tracer.events import TECHNIQUES
 from tracer.frame import Frame, dot
 from tracer.light import rectangle, sphere
@@ -67,20 +67,28 @@ def spread(evidence):
             lanes = here[way == technique]
             placed = _placed(evidence, face, technique, lanes)
             if placed is not None:
-                groups.setdefault((face.kind, int(technique)), []).append((lanes, *placed))
+                which = np.full(lanes.size, face.primitive)
+                groups.setdefault((face.kind, int(technique)), []).append((lanes, which, *placed))
     for (kind, technique), parts in groups.items():
-        lanes, a, b, raw = (np.concatenate(column, axis=-1) for column in zip(*parts, strict=True))
+        lanes, which, a, b, raw = (np.concatenate(column, axis=-1) for column in zip(*parts, strict=True))
         if lanes.size < FEWEST:
             continue
-        facts = {"shape": kind, "technique": TECHNIQUES[technique], "a": a, "b": b, "raw": raw}
-        for words, p in (("first", uniform(a)), ("second", uniform(b)), ("both", square(a, b))):
-            if p is not None:
-                text = (
-                    f"{words} coordinate of points on {kind} lamps"
-                    if words != "both"
-                    else f"points on {kind} lamps"
-                )
-                yield Cell(p, text, "light", lanes, facts)
+        facts = {
+            "shape": kind, "technique": TECHNIQUES[technique], "a": a, "b": b, "raw": raw, "primitive": which,
+        }  # fmt: skip
+        for p, text in _of_points(kind, which, a, b):
+            yield Cell(p, text, "light", lanes, facts)
+
+
+def _of_points(kind, which, a, b):
+    """Yield (chance, words) of two numbers (N,) each of points on lamps of a kind; which: the face, (N,)."""
+    yield uniform(a), f"first coordinate of points on {kind} lamps"
+    yield uniform(b), f"second coordinate of points on {kind} lamps"
+    if (p := square(a, b)) is not None:
+        yield p, f"points on {kind} lamps"
+    if which.min() < which.max():  # what the choice of the lamp has to do with the place on it
+        yield means(a, which), f"first coordinate of points on each of the {kind} lamps"
+        yield means(b, which), f"second coordinate of points on each of the {kind} lamps"
 
 
 def _placed(evidence, face, technique, rows):
