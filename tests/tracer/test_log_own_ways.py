@@ -113,3 +113,13 @@ def test_points_that_rounding_puts_beside_an_edge_lie_on_the_face():
         assert geometry.primitives_at(scene, p - wi, wi, p).tolist() == [panel]
     away = q + [[0.0], [-0.2], [0.0]]
     assert geometry.primitives_at(scene, away - wi, wi, away).tolist() == [-1]
+
+
+def test_what_is_logged_at_some_vertices_only_is_told_with_their_number(written, cornell):
+    q = {"light.q": ON_LAMP.tolist()}
+    some, all_ = OUTER | q | {"light.visible": True}, INNER | q
+    at_some, at_all = (
+        read_log(written(some, inner), cornell).notes for inner in (all_, all_ | {"light.visible": True})
+    )
+    assert "light.visible: tested at the 1 of 2 such events that log it" in at_some
+    assert not any("tested at" in note for note in at_all)

@@ -87,6 +87,7 @@ _PIECES = (
         "这束光两种找法的权重之和处处都不是 1",
     ),
     ("the square of a sum, where a sum of squares belongs", "用了和的平方，而应当是平方的和"),
+    ("the lamp's density is the one per area", "用了灯的面积密度"),
     ("but others of the same sort are right", "但同类的其他事件是对的"),
     ("every bounce goes away from the origin of space", "每次反弹都背离坐标原点"),
     ("the position stands for the normal", "位置被当成了法线"),

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.doctor.laws.emission import DENSITIES, mis
 from tracer.doctor.naming.case import SHARE, Clue, first
-from tracer.doctor.naming.weights import wrong_weights
+from tracer.doctor.naming.weights import of_known, wrong_weights
 from tracer.frame import dot
 
 
@@ -16,6 +16,8 @@ def weight(case):
     never = bool(((recorded == 0.0) & (case.right == 1.0)).mean() >= SHARE)
     depths = ", ".join(map(str, np.unique(case.depth)))
     outcome = case.outcome
+    others, unbalanced = wrong_weights(case, pdf_bsdf, pdf_light)
+    others += _per_area(case, pdf_bsdf, pdf_light)
     # Of lamps that are met alike, some only: then it is not the rule that is wrong.
     alike = outcome.right < 1.0 if twice else outcome.right == 1.0
     everywhere = bool(outcome.wrong[alike].mean() >= SHARE)
@@ -47,9 +49,19 @@ def weight(case):
                 "recorded = MIS(1, pdf_light) after the camera or a mirror, which no light sample does",
                 lambda: _of_dirac(case, pdf_bsdf, mis(settings, np.ones_like(pdf_light), pdf_light)),
             ),
-            *wrong_weights(case, pdf_bsdf, pdf_light),
+            *others,
+            unbalanced,
         ],
     )
+
+
+def _per_area(case, pdf_bsdf, pdf_light):
+    """The guess that the density of a light sample is the one per area."""
+    if case.kind != "hit" or not case.has("t"):
+        return []
+    cos = np.abs(dot(case["n"], case["wo"]))
+    of_area = of_known(case.evidence.settings, pdf_bsdf, pdf_light * cos / case["t"] ** 2)
+    return [("M01", "recorded = MIS(pdf_bsdf, pdf_area): the lamp's density is the one per area", of_area)]
 
 
 def _of_dirac(case, pdf_bsdf, predicted):

@@ -6,7 +6,7 @@ from tracer.doctor.laws.emission import mis
 from tracer.doctor.naming.case import SHARE, first
 from tracer.doctor.naming.reflection import exchanged, given_to, local, wrong_f
 from tracer.doctor.naming.visibility import visible
-from tracer.doctor.naming.weights import wrong_weights
+from tracer.doctor.naming.weights import of_known, wrong_weights
 from tracer.events import TECHNIQUES
 from tracer.frame import dot
 
@@ -189,6 +189,11 @@ def weight(case):
     """The MIS weight of a light sample."""
     settings, pdf = case.evidence.settings, case["pdf"]
     uniform = mis(settings, pdf, np.full_like(pdf, _INV_2PI))
+    others, unbalanced = wrong_weights(case, pdf, case["pdf_bsdf"])
+    if case.has("distance", "nq", "wi"):
+        of_area = of_known(settings, pdf * _cos_light(case) / case["distance"] ** 2, case["pdf_bsdf"])
+        per_area = "recorded = MIS(pdf_area, pdf_bsdf): the lamp's density is the one per area"
+        others.append(("M01", per_area, of_area))
     return first(
         case,
         [
@@ -197,6 +202,7 @@ def weight(case):
                 "recorded = MIS(pdf, 1/(2 pi)): the other density is that of a sampler that is not used",
                 uniform,
             ),
+            *others,
             ("M01", "recorded 1, though bounces find this light, too", np.ones_like(pdf)),
             (
                 "M02",
@@ -205,7 +211,7 @@ def weight(case):
                 if case.has("technique")
                 else False,
             ),
-            *wrong_weights(case, case["pdf"], case["pdf_bsdf"]),
+            unbalanced,
         ],
     )
 

@@ -10,21 +10,23 @@ _SMOOTH = 0.1  # share of the difference of strangers that neighbours may have
 
 
 def wrong_weights(case, mine, other):
-    """Guesses about a weight of the technique with density mine (K,) against that of the other (K,)."""
+    """Guesses about a weight of the technique with density mine (K,) against that of the other (K,), and the
+    last one, for when none holds."""
     settings = case.evidence.settings
     with np.errstate(all="ignore"):
         of_both = (mine / (mine + other)) ** 2
-    guesses = [
+    guesses = []
+    if case.has("pick"):
+        without = "recorded = MIS(pdf / P(lamp), pdf_bsdf): the probability of choosing the lamp is left out"
+        guesses.append(("M01", without, of_known(settings, mine / case["pick"], other)))
+    guesses += [
         ("M01", "recorded = (p / (p + q))^2: the square of a sum, where a sum of squares belongs", of_both),
         ("M01", "recorded is the weight of the other technique", of_known(settings, other, mine)),
         ("M01", "recorded = MIS(2 p, q)", of_known(settings, 2.0 * mine, other)),
         ("M01", "recorded = MIS(p, 2 q)", of_known(settings, mine, 2.0 * other)),
     ]
-    if case.has("pick"):
-        without = "recorded = MIS(pdf / P(lamp), pdf_bsdf): the probability of choosing the lamp is left out"
-        guesses.append(("M01", without, of_known(settings, mine / case["pick"], other)))
     words = "the weights of this light found both ways do not sum to 1, all over"
-    return [*guesses, ("M01", words, lambda: _another_function(case, mine, other))]
+    return guesses, ("M01", words, lambda: _another_function(case, mine, other))
 
 
 def of_known(settings, mine, other):

@@ -4,6 +4,7 @@ import numpy as np
 
 from tracer.events import TECHNIQUES
 from tracer.frame import dot, length, normalize
+from tracer.integrator.steps import mis_weight
 from tracer.light import choice
 from tracer.trace.jsonl import geometry
 from tracer.trace.jsonl.stages import Stages
@@ -27,9 +28,10 @@ class Lights(Stages):
             vertex = self.places.vertex(rows)
             found["cos"] = self._of_light("cos", lambda: np.abs(dot(vertex["n"], wi)))
             found["f"] = self._of_light("f", lambda: geometry.ask(self.scene, "eval", vertex, wi))
-        found["pdf_bsdf"] = self._of_light("pdf_bsdf")
+        found["pdf_bsdf"] = self._of_light("pdf_bsdf", self._counting(lambda: self._bounced_there(rows, wi)))
         only = self.settings.integrator == "direct" or self.settings.strategy == "light"
-        found["w"] = self._of_light("w", (lambda: np.ones(rows.size)) if only else None)
+        weights = (lambda: np.ones(rows.size)) if only else self._counting(lambda: self._balanced(found), "w")
+        found["w"] = self._of_light("w", weights)
         by_area = self.chain.given("light.pdf_area").any() or self.settings.light_sampling == "area"
         way = TECHNIQUES.index("area" if by_area else "solid_angle")
         found["technique"] = self._of_light("technique", lambda: np.full(rows.size, way))
@@ -42,6 +44,27 @@ class Lights(Stages):
 
     def _of_light(self, name, *otherwise):
         return self._said("light", name, *otherwise)
+
+    def _counting(self, otherwise, name="pdf_bsdf"):
+        """otherwise, for a number that is logged only where light arrives, as many programs work it out there
+        alone; None where it is not logged at all, or not where it counts."""
+        rows = self.rows["light"]
+        given = self.chain.given(f"light.{name}")[rows]
+        if not given.any() or not self._all_given("direct", rows):
+            return None
+        return None if (self.chain("direct")[:, rows] != 0.0)[:, ~given].any() else otherwise
+
+    def _bounced_there(self, rows, wi):
+        """Density with which a bounce would have gone to each light point, (K,)."""
+        return None if wi is None else geometry.ask(self.scene, "pdf", self.places.vertex(rows), wi)
+
+    def _balanced(self, found):
+        """The weight (K,) of each light sample; None where a density is not known."""
+        pdf, other = found.get("pdf"), found["pdf_bsdf"]
+        if pdf is None or other is None:
+            return None
+        with np.errstate(all="ignore"):
+            return mis_weight(self.settings, pdf, other)
 
     def _pointed(self, found, rows):
         """Add what follows from the point on the light: where it lies, its radiance and its density."""

@@ -173,7 +173,15 @@ def _of_calls(read, scene, exact, settings, read_off):
         scene, settings, compact(paths, scene.dtype), tables, read.header.eps, rebuilt, frozenset(assumed),
         free=free, culled=True, left_out=chain.left_out,
     )  # fmt: skip
-    return trace, [*chain.notes, *notes]
+    return trace, [*chain.notes, *notes, *_at_some(telling.partly)]
+
+
+def _at_some(partly):
+    """What is said of numbers that some events of a kind have and not all."""
+    return [
+        f"{', '.join(sorted(names))}: tested at the {some} of {all_} such events that log it"
+        for (_, some, all_), names in partly.items()
+    ]
 
 
 def _played_throughout(chain):

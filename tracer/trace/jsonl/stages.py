@@ -16,7 +16,8 @@ _LEAKS = 1e-3  # share of calls that meet nothing because a ray slipped through 
 @dataclass
 class Stages:
     """Which events each call has, and what was logged of them; `rebuilt` are "kind.field" that were not, and
-    `assumed` those of them that the law about them was asked for."""
+    `assumed` those of them that the law about them was asked for; `partly` has those that some events of a
+    kind say and not all, (kind, how many do, of how many) -> "kind.field"."""
 
     chain: Any
     places: Places
@@ -29,7 +30,7 @@ class Stages:
 
     def __post_init__(self):
         chain, places = self.chain, self.places
-        self.rebuilt, self.assumed = set(), set()
+        self.rebuilt, self.assumed, self.partly = set(), set(), {}
         self.vertex = places.vertex(slice(None))
         self.dark = geometry.dark(self.scene, self.vertex)
         self.q = self._probability()
@@ -122,6 +123,7 @@ class Stages:
                 self.assumed.add(key)
             return rest
         np.copyto(column, rest, where=~given)
+        self.partly.setdefault((kind, int(np.count_nonzero(given)), given.size), []).append(key)
         return column
 
     def _all_given(self, name, rows):
