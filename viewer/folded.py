@@ -33,11 +33,29 @@ class Folded:
 
 
 def ends_of_lines(text, width):
-    """Where lines of at most `width` cells end; what is longer than a line is one of its own."""
+    """Where lines of at most `width` cells end; what is longer than a line begins one and fills the next."""
     ends, used = [], 0
     for found in _PIECE.finditer(text):
-        if used and used + cell_len(found[0].rstrip()) > width:
+        word = found[0].rstrip()
+        if used and used + cell_len(word) > width:
             ends.append(found.start())
             used = 0
-        used += cell_len(found[0])
+        cuts = [found.start() + at for at in _cuts(word, width)]
+        ends += cuts
+        used = (
+            0
+            if "\n" in found[0]
+            else used + cell_len(text[cuts[-1] if cuts else found.start() : found.end()])
+        )
     return ends
+
+
+def _cuts(word, width):
+    """Where a word is cut that is longer than a line."""
+    cuts, used = [], 0
+    for at, letter in enumerate(word if cell_len(word) > width else ""):
+        if used + cell_len(letter) > width:
+            cuts.append(at)
+            used = 0
+        used += cell_len(letter)
+    return cuts

@@ -125,7 +125,10 @@ def _material(place, table, first):
     for word in _OF_MATERIAL.get(table["type"], ()):
         if word == "alpha":
             words = ("alpha_u", "alpha_v") if {"alpha_u", "alpha_v"} & table.keys() else ("alpha",)
-            found += [_number(f"{place}.{w}", "roughness", table.get(w), *ROUGHNESS) for w in words]
+            found += [
+                _number(f"{place}.{w}", w.replace("alpha", "roughness"), table.get(w), *ROUGHNESS)
+                for w in words
+            ]
         elif word == "int_ior":
             value = table.get(word, "bk7")
             found.append(_number(f"{place}.{word}", "index", INDICES.get(value, value), *INDEX))

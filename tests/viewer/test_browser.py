@@ -335,6 +335,25 @@ def test_nothing_is_cut_off(page, size):
         assert outside == []
 
 
+def test_on_a_low_window_the_tabs_reach_down_to_its_end(page):
+    page.set_viewport_size({"width": 1280, "height": 720})
+    box = page.locator(".tabbody").bounding_box()
+    assert box["height"] > 720 / 2 and 720 - box["y"] - box["height"] < 20
+    assert page.locator(".events .what").first.bounding_box()["width"] > 300
+
+
+def test_a_word_in_the_3d_view_stands_only_where_what_it_names_is_seen(page):
+    fill(page, 30, 45)
+    seen = page.locator(".stage .label:not([hidden])")
+    page.keyboard.press("Home")  # the camera stands before the box, outside the view
+    stands_at(page, event=0)
+    page.wait_for_function("() => document.querySelectorAll('.stage .label:not([hidden])').length === 0")
+    page.keyboard.press("ArrowRight")
+    stands_at(page, event=1)
+    seen.first.wait_for()
+    assert seen.count() == 2  # n and wo
+
+
 def test_the_browser_chooses_the_language_and_the_reader_another_that_is_kept(browser, small):
     with browser.new_context(locale="zh-CN") as chinese:
         page = chinese.new_page()

@@ -76,6 +76,19 @@ def test_the_row_says_an_error_without_its_name_and_in_chinese():
     slip = Row("b.py", FAILED, error="b.py:19: '(' was never closed", path="a/b.py")
     assert report.finding(slip, SAY) == "line 19: '(' was never closed"
     assert report.finding(slip, Speaker("zh")).startswith("第 19 行：")
+    log = Row(
+        "c.jsonl",
+        FAILED,
+        error="c.jsonl: no line can be read; line 2: not JSON: x at column 1",
+        path="c.jsonl",
+    )
+    assert report.finding(log, Speaker("zh")) == "没有一行能读取；第 2 行：不是 JSON：x，在第 1 列"
+    parts = Row("d.py", WRONG, failed=("path", "escape"))
+    assert report.cells(parts, Speaker("zh"))["failed"] == "路径、逃逸"
+
+
+def test_names_of_what_is_never_met_are_listed_as_chinese_lists():
+    assert Speaker("zh").clue("no ray meets floor, lamp") == "没有光线遇到 floor、lamp"
 
 
 @pytest.mark.slow
@@ -145,6 +158,17 @@ def test_names_and_errors_are_text_in_the_page():
     tags.feed(page)
     assert ("img", "onerror") not in tags.seen and ("img",) not in tags.seen and "\x1b" not in page
     assert "<script>alert(1)" not in page and "http://" not in page.replace("http://www.w3.org", "")
+
+
+@pytest.mark.browser
+def test_every_row_of_the_page_is_written_alike(tmp_path, visit):
+    rows = [Row("a.py", state, passed=("hit", "bounce")) for state in (RIGHT, WRONG, MAYBE, FAILED, SKIPPED)]
+    (tmp_path / "rows.html").write_text(report.as_html(rows, "a", "cornell", SAY), encoding="utf-8")
+    tab = visit((tmp_path / "rows.html").as_uri(), ready=False)
+    fonts = tab.locator("tbody td:nth-child(3)").evaluate_all(
+        "all => all.map((e) => getComputedStyle(e).font)"
+    )
+    assert len(fonts) == len(rows) and len(set(fonts)) == 1
 
 
 @pytest.fixture(scope="module")

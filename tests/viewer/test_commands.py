@@ -149,6 +149,15 @@ def test_chinese_lines_end_anywhere_but_before_what_closes_a_sentence():
         assert not any("castray"[:k] == line.rstrip()[-k:] for line in lines for k in range(1, 7))
 
 
+def test_a_word_longer_than_a_line_is_cut_into_lines_and_none_of_it_is_lost():
+    text = "在 cast_ray 中：'very_long_attribute_name_that_does_not_exist'，见这里\n第二行"
+    for width in range(12, 60):
+        ends = [0, *ends_of_lines(text, width), len(text)]
+        lines = [line for a, b in itertools.pairwise(ends) for line in text[a:b].split("\n")]
+        assert "".join(lines) == text.replace("\n", "")
+        assert all(cell_len(line.rstrip()) <= width for line in lines)
+
+
 @pytest.mark.parametrize("words", [("--lang", "fr"), ("--lang",), ("--lang=",)])
 def test_a_language_that_is_not_known_is_refused_with_those_that_are(words, capsys):
     with pytest.raises(SystemExit) as end:

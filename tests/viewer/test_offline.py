@@ -63,6 +63,42 @@ def test_it_opens_from_a_file_with_no_request_and_walks_by_keys_and_mouse(tmp_pa
     assert [address for address in tab.asked if not address.startswith("data:")] == [file.as_uri()]
 
 
+@pytest.mark.browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_is_light_or_dark_as_the_browser_is_and_its_3d_view_always_dark(tmp_path, visit, scheme):
+    file = tmp_path / "paths.html"
+    file.write_text(made()[0], encoding="utf-8")
+    tab = visit(file.as_uri(), ready=False)
+    tab.emulate_media(color_scheme=scheme)
+    tab.locator(".castray-3d[data-event='2']").wait_for()
+
+    def bright(selector, what):
+        colour = tab.locator(selector).first.evaluate("(e, what) => getComputedStyle(e)[what]", what)
+        return sum(map(int, re.findall(r"\d+", colour)[:3])) / 3
+
+    for place, back in (
+        ("body", "body"),
+        (".castray-3d .told", ".castray-3d"),
+        (".bar button", ".bar button"),
+    ):
+        light, dark = bright(back, "backgroundColor"), bright(place, "color")
+        assert (light > 150 > dark) == (scheme == "light") and abs(light - dark) > 120
+    assert bright(".castray-3d .home", "color") > bright(".stage", "backgroundColor") + 150
+
+
+@pytest.mark.browser
+def test_a_word_stands_only_where_what_it_names_is_seen(tmp_path, visit):
+    file = tmp_path / "paths.html"
+    file.write_text(made()[0], encoding="utf-8")
+    tab = visit(file.as_uri(), ready=False)
+    seen = tab.locator(".castray-3d .label:not([hidden])")
+    tab.locator(".castray-3d[data-event='2']").wait_for()
+    assert seen.count() == 3  # n, wo and wi
+    tab.locator("canvas").press("Home")  # the camera stands before the box, outside the view
+    tab.locator(".castray-3d[data-event='0']").wait_for()
+    assert tab.locator(".castray-3d .label").count() == 1 and seen.count() == 0
+
+
 def pixels(tab):
     """What the 3D view shows, (N, 3)."""
     shot = tab.locator(".castray-3d canvas").screenshot()

@@ -13,12 +13,14 @@ import pytest
 
 import tracer
 from lessons.zoo import planted
+from tracer.trace import gather
 from viewer.checking.learner import settings_of
 from viewer.cli import main
 from viewer.comparing.rival import Rival
 from viewer.panels import share
 from viewer.session import Session
 from viewer.sharing.files import FILES, Moment
+from viewer.sharing.report import report
 from viewer.words import Speaker
 
 WORDS = ("cornell_unit", "--size", "16", "16", "--spp", "4", "--max-depth", "4", "--bug", "D10")
@@ -77,6 +79,17 @@ def test_the_report_has_every_finding_and_law_of_castray_doctor(moment, tmp_path
     states = dict(re.findall(r'data-rule="([^"]+)" data-state="([^"]+)"', page))
     assert states == {rule["rule"]: rule["state"] for rule in diagnosis["rules"]}
     assert "--bug D10" in causes[0]["command"] and causes[0]["command"] in page
+    assert f">{max(rule['checked'] for rule in diagnosis['rules']):,}<" in page
+
+
+@pytest.mark.parametrize(("language", "words"), [("en", "bug"), ("zh", "错误")])
+def test_the_report_speaks_of_a_bug_only_where_one_is_planted(language, words):
+    scene, say = tracer.load("furnace"), Speaker(language)
+    for bug in ("", "E01"):
+        settings = tracer.Settings(width=4, height=4, spp=1, bug=bug)
+        page = report(tracer.examine(gather(scene, settings)), scene, settings, 16, say, again=False)
+        about = re.search(r'<p class="dim">(.*?)</p>', page)[1]
+        assert (words in about) == bool(bug) and about.endswith(bug or "0")
 
 
 @pytest.mark.parametrize("name", [name for name in FILES if name.endswith(".html")])

@@ -9,11 +9,16 @@ import pytest
 import tracer
 from lessons.course import lesson, lessons
 from viewer.cli import main
-from viewer.site import build, formula_map, frame, log_format, reference
+from viewer.site import build, formula_map, frame, index, log_format, reference
 from viewer.site.build import lesson_pages
 from viewer.words import LANGUAGES, Speaker
 
 SMALL = 2  # a lesson whose pictures are small
+# Whatever has words and reaches beyond the window, but for what scrolls and the words in the 3D view
+OUTSIDE = """width => [...document.querySelectorAll("body, body *")].filter((e) =>
+  !e.closest("pre, math, script, .labels") && e.getClientRects().length && e.textContent.trim()
+  && e.getBoundingClientRect().right > width + 1)
+  .map((e) => e.tagName + " " + e.textContent.slice(0, 60))"""
 
 
 @cache
@@ -45,6 +50,20 @@ def test_a_lesson_opens_from_a_file_and_asks_for_nothing(tmp_path, visit):
     tab.get_by_role("link", name="中文").click()
     assert lesson(SMALL).words["zh"].title in tab.title()
     assert tab.errors == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [390, 1280])
+def test_no_page_is_wider_than_its_window_on_a_phone_or_a_desk(tmp_path, visit, width):
+    pages = pages_of(True) | {f"{tag}.html": page(tag) for tag in LANGUAGES}
+    pages |= {index.file_of(tag): index.page(Speaker(tag)) for tag in LANGUAGES}
+    for name, text in pages.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        tab = visit((tmp_path / name).as_uri(), ready=False)
+        tab.set_viewport_size({"width": width, "height": 800})
+        outside = tab.evaluate(OUTSIDE, width)
+        assert outside == [], name
+        tab.close()
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from viewer.panels import change
 from viewer.panels import what_if as what_if_panel
 from viewer.session import Session
 from viewer.tuning import TUNED, dials, knobs, tuned, turned
-from viewer.words import Speaker
+from viewer.words import LANGUAGES, Speaker
 
 MOST = 12  # knobs tried of one scene
 
@@ -38,6 +38,15 @@ def test_the_knobs_that_matter_are_there(glass):
     keys = {knob.key for knob in knobs(glass)}
     assert {"white.reflectance", "glass.int_ior", "lamp.emitter.radiance", "lamp.scale"} <= keys
     assert {"copper.alpha", "brushed.alpha_u"} <= {knob.key for knob in knobs(tracer.load("materials"))}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", tracer.built_in_scenes())
+def test_no_two_knobs_of_a_scene_have_one_name(name, language):
+    session = Session(tracer.load(name), tracer.Settings(width=8, height=8, spp=1), None)
+    session.pick(3, 3)
+    labels = [knob["label"] for knob in change.show(session, Speaker(language))["knobs"]]
+    assert len(set(labels)) == len(labels)
 
 
 def test_a_colour_keeps_its_hue_even_through_black(glass):

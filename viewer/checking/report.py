@@ -13,6 +13,7 @@ from rich.text import Text
 from tracer.doctor.picture import Hypothesis
 from viewer.checking.submission import FAILED, MAYBE, RIGHT, SKIPPED, WRONG
 from viewer.doctor_report import bug_title, bugs, chance, counted, equation, lesson, place
+from viewer.folded import Folded
 from viewer.offline import document
 
 COLUMNS = ("name", "state", "passed", "failed", "finding", "certainty", "where", "command")
@@ -102,7 +103,10 @@ def print_rows(rows, say, console=None):
         if said["certainty"]:
             told.append(f"\n{said['certainty']}", style="dim")
         table.add_row(
-            Text(said["name"]), Text(said["state"], style=_STYLE[row.state]), Text(said["failed"]), told
+            Text(said["name"]),
+            Text(said["state"], style=_STYLE[row.state]),
+            Folded(Text(said["failed"])),
+            Folded(told),
         )
     console.print(table)
     skipped = [printable(row.name) for row in rows if row.state == SKIPPED]
@@ -185,7 +189,12 @@ def _detail(found, say):
     cells = [(text, escape(printable(value))) for text, value in rows]
     if getattr(found, "command", None):
         cells.append((say("doctor.see"), _command(found.command, say)))
-    body = "".join(f'<tr><th scope="row">{escape(text)}</th><td>{cell}</td></tr>' for text, cell in cells)
+    body = "".join(
+        f'<tr><th scope="row">{escape(text)}</th><td>{cell}</td></tr>'
+        if text
+        else f'<tr><td colspan="2">{cell}</td></tr>'
+        for text, cell in cells
+    )
     return f'<div class="finding"><h3>{escape(printable(head))}</h3><table>{body}</table></div>'
 
 

@@ -194,12 +194,12 @@ window.castrayView = (element, data) => {
     const taken = []; // by names further up in the list: the next ones keep off them
     for (const label of labels.children) {
       const [x, y, , w] = [0, 1, 2, 3].map((r) => m[r] * label.at[0] + m[r + 4] * label.at[1] + m[r + 8] * label.at[2] + m[r + 12]);
-      label.hidden = w <= 0;
+      label.hidden = w <= 0 || Math.max(Math.abs(x), Math.abs(y)) > 1.1 * w; // behind the eye, or what it names is out of sight
       if (label.hidden) continue;
       const tall = stage.clientHeight, wide = label.offsetWidth, left = clamp((0.5 + x / w / 2) * stage.clientWidth, 12, stage.clientWidth - 12);
-      const ideal = clamp((0.5 - y / w / 2) * tall, 10, tall - 10), full = (at) => taken.some(([l, t, width]) => Math.abs(left - l) < (wide + width) / 2 && Math.abs(at - t) < 22);
+      const ideal = clamp((0.5 - y / w / 2) * tall, 14, tall - 14), full = (at) => taken.some(([l, t, width]) => Math.abs(left - l) < (wide + width) / 2 && Math.abs(at - t) < 22);
       let top = ideal; // else the nearest free place below or above
-      for (let k = 1; k < 100 && full(top); k++) top = clamp(ideal + (k % 2 ? 4 : -4) * Math.ceil(k / 2), 10, tall - 10);
+      for (let k = 1; k < 100 && full(top); k++) top = clamp(ideal + (k % 2 ? 4 : -4) * Math.ceil(k / 2), 14, tall - 14);
       taken.push([left, top, wide]);
       label.style.transform = `translate(${left}px, ${top}px) translate(-50%, -50%)`;
     }

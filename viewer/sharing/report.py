@@ -7,7 +7,6 @@ import tracer
 from lessons.zoo import planted
 from viewer.cursor import Cursor
 from viewer.doctor_report import bug_title, bugs, chance, counted, equation, following, lesson, place
-from viewer.numerals import NOTHING
 from viewer.offline import BEGIN, document, figure, furniture
 from viewer.render import preview
 
@@ -17,7 +16,7 @@ STATES = ("fired", "clean", "not_testable")
 
 def report(diagnosis, scene, settings, paths, say, again=True):
     """The report on so many paths of a scene. again: whether its paths can be traced again, to be shown."""
-    told = say("share.examined", scene=scene.name, paths=paths, **_about(settings))
+    told = _about(scene, settings, paths, say)
     causes = [f for f in diagnosis.findings if f.follows is None]
     proof = next((f.first for f in causes if f.first and f.first.get("step") is not None), None)
     shown = _proof(scene, settings, proof, say) if again and proof else ""
@@ -38,9 +37,11 @@ def report(diagnosis, scene, settings, paths, say, again=True):
     return document(title, body, say.language, styles, f"{scripts}\n{BEGIN}" if shown else "")
 
 
-def _about(settings):
+def _about(scene, settings, paths, say):
     names = ("width", "height", "spp", "integrator", "seed")
-    return {name: getattr(settings, name) for name in names} | {"bug": settings.bug or NOTHING}
+    said = {name: getattr(settings, name) for name in names}
+    told = say("share.examined", scene=scene.name, paths=paths, **said)
+    return say("share.examined_bug", examined=told, bug=settings.bug) if settings.bug else told
 
 
 def _verdict(diagnosis, causes, say):
@@ -79,6 +80,10 @@ def _cause(finding, say):
     )
 
 
+def _many(count):
+    return f"{count:,}" if count else ""
+
+
 def _proof(scene, settings, first, say):
     """The picture, and the path that the first finding names, at its event."""
     x, y = first["x"], first["y"]
@@ -107,7 +112,7 @@ def _rules(diagnosis, say):
         rows.append(
             f'<tr class="{state}" data-rule="{escape(rule.id)}" data-state="{state}" title="{law}">'
             f"<td>{escape(say.optional(f'rule.{rule.id}', rule.title))}</td><td>{escape(said)}</td>"
-            f"<td>{verdict.checked or ''}</td><td>{verdict.failed or ''}</td></tr>"
+            f"<td>{_many(verdict.checked)}</td><td>{_many(verdict.failed)}</td></tr>"
         )
     head = escape(say("share.laws", n=len(rows)))
     table = f"<thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody>"

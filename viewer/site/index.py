@@ -17,7 +17,7 @@ def page(say):
     rows = "".join(_row(it, say) for it in lessons().values())
     heads = "".join(f"<th>{escape(say(key))}</th>" for key in ("lesson.lesson", "lesson.time", "site.tasks"))
     main = (
-        f"<h1>{escape(say('site.title'))}</h1><p>{escape(say('site.intro'))}</p>"
+        f"<h1>{escape(say('site.title'))}</h1><p>{escape(say('site.intro'))} <code>castray view --lesson 1</code></p>"
         f'<table class="lessons"><thead><tr><th></th>{heads}</tr></thead><tbody>{rows}</tbody></table>'
         f"<h2>{escape(say('site.beside'))}</h2><ul>"
         f'<li><a href="{named("formulas", say.language)}">{escape(say("site.formulas"))}</a><br>{escape(say("site.formulas_about"))}</li>'

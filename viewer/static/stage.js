@@ -15,6 +15,8 @@
     return depth > 0 ? [width / 2 + (f * dot(ray, side)) / depth, height / 2 - (f * dot(ray, up)) / depth] : null;
   }
 
+  const beyond = (v, size) => Math.abs(v - size / 2) > 0.55 * size; // a little outside, a label stands at the edge
+
   // Gives the actors of viewer/stage.py, which vtk.js has made already, what the server says they show.
   function drawer(renderer) {
     const kept = []; // what was said of each, and the numbers made of it
@@ -86,8 +88,8 @@
           const element = box.value.children[k];
           if (!element) return;
           const there = project(eye, label.at, width, height);
-          element.hidden = !there; // behind the eye
-          if (!there) return;
+          element.hidden = !there || beyond(there[0], width) || beyond(there[1], height); // what it names is not seen
+          if (element.hidden) return;
           const x = clamp(there[0], 14, width - 14), ideal = clamp(there[1], 12, low);
           const full = (y) => taken.some(([a, b, wide]) => Math.abs(x - a) < wide / 2 + element.offsetWidth / 2 && Math.abs(y - b) < 22);
           let y = ideal; // else the nearest free place below or above

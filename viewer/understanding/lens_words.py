@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 
-from viewer.numerals import NOTHING, short
+from viewer.numerals import short
 from viewer.understanding.draws import DRAWS, OFF
 
 NAMES = {"n": "n", "ng": "n_g", "wo": "ωₒ", "wi": "ωᵢ", "h": "h"}
@@ -27,21 +27,20 @@ def judged(lens, say):
 
 def lobes(lens, say):
     """A line for each Dirac lobe, and for what goes nowhere."""
-    return [
-        say(
-            "lens.lobe",
-            lobe=say.optional(f"choice.{count.where}", say("lens.nowhere")),
-            observed=count.observed,
-            draws=DRAWS,
-            expected=_expected(count),
-        )
-        for count in lens.counts
-        if isinstance(count.where, str)
-    ]
+    return [_lobe(count, say) for count in lens.counts if isinstance(count.where, str)]
+
+
+def _lobe(count, say):
+    """How often bounces took a lobe, and how often they should have, where that is known."""
+    lobe = say.optional(f"choice.{count.where}", say("lens.nowhere"))
+    said = {"lobe": lobe, "observed": count.observed, "draws": DRAWS}
+    if count.expected is None:
+        return say("lens.lobe_alone", **said)
+    return say("lens.lobe", **said, expected=_expected(count))
 
 
 def _expected(count):
-    return NOTHING if count.expected is None else short(round(count.expected * DRAWS, 1))
+    return short(round(count.expected * DRAWS, 1))
 
 
 def tried(lens, say):

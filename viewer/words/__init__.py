@@ -169,8 +169,8 @@ class Speaker:
                         values[inner] = told(values[inner])
                     for place in values.keys() & {"place", "path"}:
                         values[place] = values[place].replace(": ", self.words["clue.why"])
-                    if "known" in values:
-                        values["known"] = self._names(values["known"])
+                    for listed in values.keys() & {"known", "names"}:
+                        values[listed] = self._names(values[listed])
                     for term in values.keys() & CALLED:
                         values[term] = self.optional(f"called.{values[term]}", values[term])
                     if "kind" in values:

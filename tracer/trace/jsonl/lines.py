@@ -46,8 +46,9 @@ def _read(path, file, tables):
     gathering.line(rest, line + 1, ended=False)
     found.columns = gathering.finish()
     if not found.columns:
-        first = f"; {found.mistakes[0]}" if found.mistakes else ""
-        raise TracerError(f"{path}: no line can be read{first}")
+        if found.mistakes:
+            raise TracerError(f"{path}: no line can be read; {found.mistakes[0]}")
+        raise TracerError(f"{path}: no line can be read")
     if None in found.columns and len(found.columns) > 1:
         raise TracerError(f"{path}: holds calls and events (lines with kind); a log has one of the two")
     return found
