@@ -11,6 +11,7 @@ from outside import MISTAKES, hall, third_steps, weekend
 
 from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
+from tracer.events import END_REASONS
 
 QUICK = ("f-twice", "roulette-early", "depths-share")
 SLOW = (
@@ -82,6 +83,16 @@ def test_the_same_formula_at_some_vertices_only_has_no_name():
 @pytest.mark.slow
 def test_a_weight_that_is_almost_1_is_told_where_it_counts_twice():
     assert MISTAKES["weight-twice"].diagnosed().causes[0].explanation == "recorded = right x w"
+
+
+@pytest.mark.parametrize("finite", [True, False])
+def test_paths_may_be_dropped_as_invalid_only_for_a_number_that_is_none(finite):
+    invalid = END_REASONS.index("invalid")
+    trace = changed(traced("rooms"), "end.reason", lambda reason: np.full_like(reason, invalid))
+    if not finite:
+        trace = changed(trace, "hit.contribution", lambda L: L * L.dtype.type(np.nan))
+    findings = examine(trace, only={"end"}).findings
+    assert [f.explanation.startswith("paths are dropped as invalid") for f in findings] == [True] * finite
 
 
 @pytest.mark.parametrize(

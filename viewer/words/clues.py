@@ -96,6 +96,10 @@ _PIECES = (
         "only where lamps are met, which reflect light as other surfaces do",
         "只在遇到灯的地方；灯与别的表面一样会反射光",
     ),
+    (
+        "paths are dropped as invalid, though each number of theirs is finite",
+        "路径被当作无效而丢弃，而它们的每个数都是有限的",
+    ),
     ("each sample is clamped", "每个样本都被截断"),
     ("each sample is bent for the screen before the mean is taken", "每个样本先按屏幕曲线变换，才求平均"),
     ("the pixel is not divided by its number of samples", "像素没有除以样本数"),

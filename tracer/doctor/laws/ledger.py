@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracer.doctor.laws.emission import strategy
+from tracer.doctor.laws.records import without_number
 from tracer.doctor.rule import Outcome, Rule
 from tracer.events import END_REASONS
 from tracer.frame import dot
@@ -68,15 +69,22 @@ def reason(evidence):
     out = evidence.before("end", "escape") >= 0
     may &= (end != _REASON["escaped"]) | out
     unsure = np.zeros(end.shape, bool)
-    black = end == _REASON["black"]
-    if black.any():
-        vertex = evidence.before("end", "hit")[black]
-        dark, unsure[black] = _dark(evidence, vertex)
-        unsure[black] |= vertex < 0
-        may[black] = dark | ~_plain(evidence.scene).take(_material(evidence, vertex))
+    for name in ("black", "invalid"):
+        here = end == _REASON[name]
+        if here.any():
+            may[here], unsure[here] = _without_direction(evidence, evidence.before("end", "hit")[here])
+    invalid = np.flatnonzero(end == _REASON["invalid"])
+    if invalid.size:
+        may[invalid] |= without_number(evidence)[evidence.trace.tables["end"].path[invalid]]
     return Outcome(
         "end", rows, ~may & ~unsure, unsure, end, end, "reason", facts={"reasons": np.unique(end[~may])}
     )
+
+
+def _without_direction(evidence, vertex):
+    """Whether paths may find no direction to go on in at HITs (rows), and where that is not known."""
+    dark, unsure = _dark(evidence, vertex)
+    return dark | ~_plain(evidence.scene).take(_material(evidence, vertex)), unsure | (vertex < 0)
 
 
 def _plain(scene):
@@ -176,8 +184,8 @@ RULES = (
     Rule(
         "end",
         "Paths end for a reason",
-        "A path ends by roulette, by leaving the scene, at a black surface "
-        "or at the declared depth; nothing else may end it.",
+        "A path ends by roulette, by leaving the scene, at a black surface, "
+        "at the declared depth or by a number that is none; nothing else may end it.",
         "no end that is not paid for",
         ("end.reason", "hit.p", "hit.n", "hit.wo", "hit.primitive"),
         reason,

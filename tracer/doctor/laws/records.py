@@ -25,6 +25,20 @@ def _not_finite(evidence, kind, field):
     return bad.reshape(-1, column.shape[-1]).any(axis=0)
 
 
+def without_number(evidence):
+    """Which paths (P,) have a number that is none, or a sum that the trace's precision cannot hold."""
+    found = np.zeros(evidence.trace.size, bool)
+    brought = np.zeros(evidence.trace.size)
+    for kind, f in _present(evidence):
+        path = evidence.trace.tables[kind].path
+        found[path[_not_finite(evidence, kind, f)]] = True
+        if f.name == "contribution":
+            size = np.abs(evidence(f"{kind}.contribution")).max(axis=0)
+            brought += np.bincount(path, size, evidence.trace.size)
+    largest = np.finfo(np.float32 if evidence.settings.precision == 32 else np.float64).max
+    return found | ~(brought < 0.1 * largest)
+
+
 def within_domain(evidence):
     """I10: the events with a number outside of its domain."""
     return _first(evidence, ((kind, f, _outside(evidence, kind, f)) for kind, f in _present(evidence)))

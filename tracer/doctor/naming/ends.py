@@ -3,6 +3,7 @@
 import numpy as np
 
 from tracer.doctor.naming.case import SHARE, Clue, first
+from tracer.events import END_REASONS
 from tracer.frame import dot
 
 
@@ -112,7 +113,16 @@ def ledger(case):
     return first(case, guesses)
 
 
+def end(case):
+    """Paths that end for no reason."""
+    reasons = np.asarray(END_REASONS)[case.evidence("end.reason")[case.rows]]
+    if (reasons == "invalid").mean() >= SHARE:
+        return Clue(None, "paths are dropped as invalid, though each number of theirs is finite")
+    return None
+
+
 NAMES = {
+    "end": end,
     "camera-ray": camera_ray,
     "absorbed": absorbed,
     "light-due": light_due,
