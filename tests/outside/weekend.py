@@ -141,7 +141,7 @@ MISTAKES = (
     _of(
         "width-less-one",
         "the picture is one pixel too narrow",
-        ("camera-ray", "camera-pixel", "camera-start"),
+        ("camera-ray", "camera-pixel", "camera-start", "film"),
         {
             "(x + random_float()) / PICTURE, v = (y + random_float()) / PICTURE": (
                 "(x + random_float()) / (PICTURE - 1), v = (y + random_float()) / (PICTURE - 1)"

@@ -213,12 +213,18 @@ def test_traces_with_hardly_an_event_are_judged(options):
 
 MANY = {  # what only many events show: (trace, what is done to it, the rule that fires)
     "film": ("room", "camera.film", lambda film: np.floor(film) + 0.5, "numbers-uniform"),
+    "beside": (
+        "room",
+        "camera.film",
+        lambda film: np.floor(film) + np.array([[0.5], [1.0]]) * (film % 1.0),
+        "film",
+    ),
     "numbers": ("room", "light.u", lambda u: np.sqrt(u), "numbers-uniform"),
     "again": ("room", "light.u", lambda u: u[:, np.arange(u.shape[1]) // 2], "numbers-once"),
     "related": ("room", "bounce.u", lambda u: u[[0, 2, 2]], "numbers-uniform"),
     "lamps": ("lamps", "light.light", lambda light: np.zeros_like(light), "lamp-choice"),
     "directions": ("room", "bounce.wi", lambda wi: np.abs(wi), "directions"),
-    "beside": ("glossy", "bounce.wi", lambda wi: np.abs(wi), "directions-beside"),
+    "glossy": ("glossy", "bounce.wi", lambda wi: np.abs(wi), "directions-beside"),
     "neighbours": (
         "room",
         "light.u",

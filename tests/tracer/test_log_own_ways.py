@@ -61,7 +61,7 @@ def test_a_call_that_meets_nothing_where_there_is_a_wall_is_told(written, cornel
 def test_a_program_may_choose_its_survival_probability_vertex_by_vertex(written, cornell, q, fires):
     head = {name: value for name, value in HEADER.items() if name != "roulette"}
     log = read_log(written(OUTER, INNER | {"roulette.probability": q}, head=head), cornell)
-    assert log.trace.free == {"roulette"}
+    assert "roulette" in log.trace.free
     assert ("roulette-probability" in [rule for rule, _ in said(log)]) == fires
     declared = read_log(written(OUTER, INNER | {"roulette.probability": 0.6}), cornell)
     assert "roulette-probability" in [rule for rule, _ in said(declared)]

@@ -264,6 +264,8 @@ def _explains(cause, rule):
         return False
     if rule in _NUMBERS:
         return cause in _NUMBERS or cause == "absorbed"
+    if rule == "film":
+        return cause in _NUMBERS or cause.startswith("camera")
     if rule in ("mean", "variance") or cause in _NUMBERS:
         return True
     if rule.startswith("directions"):

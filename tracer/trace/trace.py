@@ -42,7 +42,8 @@ class Trace:
     "kind.field", that were not recorded but worked out from others and the scene. assumed: those of them that
     were worked out by the very law about them, so that they cannot break it.
     culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
-    free: settings that the program chose otherwise at every vertex, so that no law says what they have to be.
+    free: settings that the program chose otherwise at every vertex, or did not declare ("size", of the
+    picture), so that no law says what they have to be.
     light_samples: how many a vertex has, whose mean counts.
     left_out: how many more paths there were, which are not here for what they did, so that those that are
     here are no fair sample.

@@ -10,6 +10,8 @@ _PIECES = (
     ("second coordinate of points on {called} lamps", "{called}灯上的点的第二个坐标"),
     ("first coordinate of points on each of the {called} lamps", "每盏{called}灯上的点的第一个坐标"),
     ("second coordinate of points on each of the {called} lamps", "每盏{called}灯上的点的第二个坐标"),
+    ("places on the film lie {off} pixels beside the middle of theirs in {axis}", "胶片上的位置在 {axis} 方向偏离像素中心 {off} 像素"),
+    ("the picture is stretched by {times} in {axis}", "图像在 {axis} 方向被拉伸 {times} 倍"),
     ("points on {called} lamps", "{called}灯上的点"),
     ("how often each face of a lamp is chosen", "灯的各个面被选中的频率"),
     ("number {k} for {called}", "{called}用的第 {k} 个随机数"),

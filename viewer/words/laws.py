@@ -136,6 +136,8 @@ WORDS = {
         "law.numbers-uniform": "随机数均匀填满 [0, 1)，同一用途的随机数均匀填满正方形和立方体。",
         "rule.numbers-independent": "随机数相互独立",
         "law.numbers-independent": "相邻像素、样本、深度和用途的随机数互不相关。",
+        "rule.film": "样本均匀分布在像素中",
+        "law.film": "胶片上的位置围绕像素的中心，最后一列与第一列一样。",
         "rule.lamp-choice": "灯被选中的频率符合要求",
         "law.lamp-choice": "每盏灯被选中的频率符合它的概率，灯的每个面符合它的面积。",
         "rule.lamp-points": "光源点分布均匀",

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, NotRecordedError, Outcome, Rule, Verdict
-from tracer.doctor.statistics import directions, lamps, means, numbers
+from tracer.doctor.statistics import directions, film, lamps, means, numbers
 from tracer.doctor.statistics.cells import ALPHA, FEW
 
 _VERTEX = ("hit.p", "hit.n", "hit.wo", "hit.primitive")
@@ -33,6 +33,14 @@ RULES = (
         "E[(u_i - 1/2)(u_j - 1/2)] = 0",
         ("light.u", "bounce.u", "path.x", "path.y", "path.sample", "hit.primitive"),
         numbers.unrelated_ones,
+    ),
+    Rule(
+        "film",
+        "Samples lie evenly in their pixels",
+        "Places on the film lie about the middle of their pixels, in the last column as in the first.",
+        "E[film - pixel] = 1/2",
+        ("camera.d", "path.x", "path.y"),
+        film.within,
     ),
     Rule(
         "lamp-choice",

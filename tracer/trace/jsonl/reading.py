@@ -132,10 +132,12 @@ def _weighs(read):
 
 
 def _free(read, read_off):
-    """Settings that are neither declared nor one number: any lawful one is in order, vertex by vertex."""
+    """Settings that are neither declared nor one number: any lawful one is in order, vertex by vertex. "size"
+    is the picture's."""
     chosen = _column(read, "roulette", "probability").size > 0
     declared = "roulette" in read_off or read.header.options.get("roulette") is not None
-    return frozenset({"roulette"} if chosen and not declared else ())
+    sized = all(read.header.options.get(name) is not None for name in ("width", "height"))
+    return frozenset(({"roulette"} if chosen and not declared else set()) | (set() if sized else {"size"}))
 
 
 def _of_calls(read, scene, exact, settings, read_off):
