@@ -4,6 +4,7 @@ from tracer import derived
 from tracer.event import Field, Kind
 
 END_REASONS = ("escaped", "absorbed", "roulette", "max_depth", "black", "invalid")
+UNSAID = "unsaid"  # of a path whose log does not tell why it ended
 TECHNIQUES = ("area", "solid_angle", "cone", "delta", "image")
 LOBES = ("none", "diffuse", "reflection", "transmission")
 

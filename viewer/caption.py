@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 
-from tracer.events import END
+from tracer.events import END, UNSAID
 from viewer.numerals import several, short
 
 TABLES = {
@@ -120,7 +120,7 @@ def _escape(v, scene, say):
 
 
 def _end(v, scene, say):
-    reason = END.field("reason").choices[int(v["reason"])]
+    reason = END.field("reason").choices[int(v["reason"])] if v["reason"] >= 0 else UNSAID
     return say.sentences(say(f"caption.end.{reason}"), say("caption.end", radiance=several(v["radiance"])))
 
 

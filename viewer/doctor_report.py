@@ -140,6 +140,8 @@ def bug_title(bug, say):
 
 def equation(what, values):
     """What a finding is about, with its numbers."""
+    if all(v is None for v in values):
+        return f"{what} = NaN or ∞"
     return f"{what} = {several([float('nan') if v is None else v for v in values])}"
 
 

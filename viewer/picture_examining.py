@@ -10,7 +10,7 @@ from tracer.settings import TracerError
 from viewer.comparing.comparer import desk_of
 from viewer.comparing.rival import Rival
 from viewer.picture_doctor import opinion_on
-from viewer.picture_report import said_of
+from viewer.picture_report import beyond, said_of
 from viewer.worker import Stopped
 
 
@@ -92,4 +92,6 @@ def shown(session, say):
         words = "pic.right" if guess.opinion.is_right else "pic.hypotheses" if found else "pic.nothing"
         told["verdict"], told["good"] = say(words), guess.opinion.is_right
         told["hypotheses"] = [[*said_of(h, guess.album, say)] for h in found]
+        if words == "pic.nothing":
+            told["hypotheses"] = [[*beyond(guess.opinion, say)]]
     return told

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from lessons.course import about
 from tracer.doctor import LAWS, statistics
-from tracer.doctor.picture import FITS, predicted
+from tracer.doctor.picture import FITS, predicted, strangest
 from viewer.doctor_report import bug_title
 from viewer.folded import Folded
 from viewer.words import Speaker
@@ -125,10 +125,21 @@ def _read_as(curve, say):
 
 def _print_nothing(opinion, say, console):
     console.print(Folded(Text(say("pic.nothing"), style="bold red")))
+    for said in beyond(opinion, say):
+        console.print(Folded(Text(said)))
+
+
+def beyond(opinion, say):
+    """Lines on a picture that is wrong and that nothing in the catalogue fits: what there is to go on."""
+    wall, coloured = strangest(opinion.walls)
+    if wall is not None:
+        ratio = dict(zip(("red", "green", "blue"), wall.ratio.tolist(), strict=True))
+        key = "pic.strangest_colour" if coloured else "pic.strangest"
+        yield say(key, name=wall.name, **ratio, ratio=float(np.mean(wall.ratio)))
     near = opinion.nearest
     if near is not None and near.bugs:
-        console.print(Folded(Text(say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains))))
-    console.print(Folded(Text(say("pic.log_any"))))
+        yield say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains)
+    yield say("pic.log_any")
 
 
 def _print_hypothesis(h, album, say, console):

@@ -16,6 +16,7 @@ from suite import suite_seed
 import tracer
 from lessons import zoo
 from tracer.doctor import LAWS, diagnosis, examine, statistics
+from tracer.doctor.diagnosis import Finding
 from tracer.doctor.evidence import Evidence
 from tracer.events import KINDS
 from tracer.trace import gather
@@ -193,6 +194,60 @@ def test_a_finding_shows_both_numbers_the_path_and_how_to_see_it():
     np.testing.assert_allclose(
         np.array(finding.recorded) * float(table["cos"][row]), finding.right, rtol=1e-5
     )
+
+
+def finding(rule, count, checked):
+    place = {"x": 0, "y": 0, "sample": 0, "depth": 0, "kind": "hit", "step": 1}
+    return Finding(rule, "", "", "", None, (), count, checked, place, "", None, None, "", None)
+
+
+@pytest.mark.parametrize(
+    ("cause", "other", "follows"),
+    [
+        (("own-surface", 6), ("on-surface", 1029), None),
+        (("own-surface", 900), ("on-surface", 1029), "own-surface"),
+        (("light-term", 62), ("finite", 1013), None),
+        (("bounce-f", 800), ("directions", 2), None),
+        (("bounce-side", 800), ("directions", 2), "bounce-side"),
+    ],
+)
+def test_a_law_follows_only_from_one_that_is_about_it_and_broken_often_enough(cause, other, follows):
+    found = {f.rule: f.follows for f in diagnosis.ranked([finding(*cause, 5000), finding(*other, 5000)])}
+    assert found == {cause[0]: None, other[0]: follows}
+
+
+@pytest.mark.slow
+def test_normals_of_other_surfaces_are_known_as_such_and_have_no_colours():
+    trace = changed(kept("room"), "hit.ng", lambda ng: np.roll(ng, 7, axis=1))
+    trace = with_column(trace, "hit.n", trace.tables["hit"]["ng"])
+    said = {f.rule: f.explanation for f in examine(trace).findings}
+    assert said["normal"] == "recorded are the normals of other surfaces"
+    assert not any("red" in words for words in said.values())
+
+
+@pytest.mark.slow
+def test_two_exchanged_channels_of_one_surface_are_told_with_it():
+    trace = kept("room")
+    hits = trace.tables["hit"]
+    wall = trace.scene.shape_of.take(hits["primitive"]) == 3
+    light = trace.tables["light"]
+    vertex = trace.hit_of("light")
+    trace = changed(trace, "light.f", lambda f: f[[1, 0, 2]], wall[vertex] & (light["f"] > 0.0).all(axis=0))
+    (said,) = {f.explanation for f in examine(trace).findings if f.rule == "light-f"}
+    name = trace.scene.shapes[3].name
+    assert said == f"red and green are exchanged; only on {name}"
+
+
+def test_a_lamps_radiance_that_is_told_for_its_dark_side_but_not_used_is_no_mistake():
+    trace = kept("room")
+    light = trace.tables["light"]
+    behind = (light["nq"] * light["wi"]).sum(axis=0) > 0.01
+    told = changed(
+        trace, "light.Le", lambda Le: np.float32([[18.387], [13.987], [6.7536]]) + 0.0 * Le, behind
+    )
+    assert behind.any() and "light-radiance" not in fired(examine(told))
+    used = changed(told, "light.contribution", lambda c: c + np.float32(1), behind)
+    assert "light-radiance" in fired(examine(used))
 
 
 def test_what_cannot_be_told_has_no_name():

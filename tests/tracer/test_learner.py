@@ -137,6 +137,33 @@ def test_rays_that_go_on_through_what_blocks_them_are_no_path(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        ("cos * cos_light / dot(towards, towards)", "min(cos * cos_light / dot(towards, towards), 4e-6)",
+         "as if cos cos_light / r^2 were never more than 4e-06"),
+        ("/ dot(towards, towards)", "/ max(dot(towards, towards), 160000)",
+         "as if r^2 were never less than 1.6e+05"),
+    ],
+)  # fmt: skip
+def test_a_number_held_between_bounds_is_told_with_the_bound(tmp_path, right, wrong, said):
+    assert TEXT.count(right) == 1
+    found = judged(written(tmp_path, TEXT.replace(right, wrong)), width=16, height=16, spp=8)
+    assert [(f.rule, f.explanation) for f in found.causes][:1] == [("light-term", said)]
+
+
+@pytest.mark.parametrize("missed", ["1.0", "scene.sample_light().emission * float('nan')"])
+def test_what_a_ray_brings_that_meets_nothing_is_the_cause_of_what_comes_of_it(tmp_path, missed):
+    """A record that keeps the last hit is not seen where that hit is used, only by what then comes back."""
+    text = TEXT.replace(
+        "    if hit is None:\n        return 0.0", f"    if hit is None:\n        return {missed}"
+    )
+    found = judged(written(tmp_path, text))
+    assert [f.rule for f in found.causes] == ["environment-term"]
+    assert found.findings[0].explanation.startswith("nothing is met there")
+
+
 def test_a_density_asked_before_the_bounce_is_told_as_the_light_samples(tmp_path):
     sample, density = "wi = material.sample(wo, n)", "pdf = material.pdf(wi, wo, n)"
     early = TEXT.replace(f"{sample}\n        {density}", f"{density}\n        {sample}")

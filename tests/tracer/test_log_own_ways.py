@@ -10,8 +10,11 @@ from suite import castray
 
 import tracer
 from tracer.trace.jsonl import geometry, read_log
+from tracer.trace.pixels import pixel, without_gaps
 from viewer import app
+from viewer.caption import CAPTIONS
 from viewer.cli import main
+from viewer.words import Speaker
 
 EYE, FLOOR, ON_LAMP = (np.array(p, float) for p in ((278, 273, -800), (450, 0, 110), (278, 548.7, 280)))
 
@@ -93,6 +96,17 @@ def test_the_command_of_each_finding_opens_the_log_at_its_event(tmp_path, monkey
         assert (session.cursor.path, session.path.sample) == (1, 4)
         if first["kind"]:
             assert (session.event.kind.name, session.event.depth) == (first["kind"], first["depth"])
+
+
+def test_why_a_path_ended_is_not_made_up_where_no_line_says_it(written, cornell):
+    plain = [{k: v for k, v in call.items() if not k.startswith("roulette")} for call in (OUTER, INNER)]
+    alone = {k: v for k, v in plain[0].items() if not k.startswith(("bounce", "indirect"))}
+    head = {name: value for name, value in HEADER.items() if name != "roulette"}
+    log = read_log(written(*plain, alone | {"path": 1, "x": 4, "returned": [0.25] * 3}, head=head), cornell)
+    (path,) = pixel(without_gaps(log.trace), 4, 5).paths
+    assert path.end == "unsaid"
+    said = CAPTIONS["end"](path.events[-1].values, cornell, Speaker("en"))
+    assert said.startswith("The path is over; why was not recorded.")
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """`castray doctor PICTURE` on the command line."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ from suite import castray
 
 import tracer
 from lessons.zoo import ZOO
+from tracer.doctor.picture import Wall, strangest
+from tracer.scene_file.change import changed
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +46,30 @@ def test_a_picture_gives_hypotheses_and_no_findings(folder):
 
 
 @pytest.mark.slow
+@pytest.mark.slow
+def test_where_nothing_fits_the_object_that_stands_out_is_named_and_what_to_do_next(tmp_path):
+    exchanged = changed(tracer.load("cornell"), {"red.reflectance": (0.065, 0.63, 0.05)})
+    dark = replace(ZOO["D10"].asked(width=40, height=40, spp=16), roulette="0.5")
+    mine = tmp_path / "mine.png"
+    tracer.write(tracer.render(exchanged, dark).rgb, mine)
+    said = " ".join(castray("doctor", mine, "--scene", "cornell").stdout.split())
+    assert "the colour of left_wall" in said and "castray check FILE.py" in said
+
+
+@pytest.mark.parametrize(
+    ("ratios", "name", "coloured"),
+    [
+        (((1.0, 1.1, 0.9), (0.9, 1.0, 1.0), (0.2, 5.0, 1.0)), "wall 2", True),
+        (((1.0, 1.1, 0.9), (0.9, 1.0, 1.0), (0.3, 0.3, 0.3), (1.0, 1.0, 1.0)), "wall 2", False),
+        (((0.5, 0.5, 0.5), (0.6, 0.5, 0.5), (0.4, 0.5, 0.5)), None, False),
+    ],
+)
+def test_the_object_that_stands_out_is_unlike_the_others(ratios, name, coloured):
+    walls = [Wall(f"wall {k}", np.array(ratio), 0.1, np.ones((8, 8), bool)) for k, ratio in enumerate(ratios)]
+    wall, of_colour = strangest(walls)
+    assert (wall and wall.name, of_colour) == (name, coloured)
+
+
 def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", "--json", "--spp", 8)
     said = json.loads(ran.stdout)

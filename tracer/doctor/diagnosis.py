@@ -36,8 +36,10 @@ _UNCARRIED = ("bounce-side", "bounce-f", "bounce-pdf", "light-due")  # why a bou
 _OF_MANY = tuple(rule.id for rule in statistics.RULES)
 _NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
 _BOUNCES = ("unit-normal", "normal", "shading-normal", "unit-direction", "wo", "absorbed", "bounce-")
+_AMOUNTS = ("bounce-f", "bounce-cos")  # which say nothing of where bounces go
 _ALWAYS_LATER = ("domain", "finite")  # what any mistake may lead to
 _AFTER = 0.999  # share of a law's events that have to come after those of another
+_ENOUGH = 0.25  # times as often as a law what is to be the cause of it has to be broken
 _VERTICES = 1 << 18  # that are judged at once, about 300 MB
 
 
@@ -225,14 +227,14 @@ def ranked(findings, led=None):
     """Causes first, in the order of the rules, those last of which there are but few events; then what
     follows from them. led: id of a law -> id of the one that is broken before it."""
     led = led or {}
-    fired = [f.rule for f in findings]
+    counts = {f.rule: f.count for f in findings}
     often = [f.rule for f in findings if f.rule in _OF_MANY or f.count > FEW * np.sqrt(f.checked)]
     rare = {f.rule for f in findings} - set(often)
     ordered = []
     for f in findings:
-        cause = led.get(f.rule) or _cause(f.rule, often if f.rule in _OF_MANY else fired)
+        cause = led.get(f.rule) or _cause(f.rule, counts, often)
         if f.rule == "absorbed" and f.bug is None:
-            cause = next((other for other in fired if other in _UNCARRIED), None)
+            cause = next((other for other in counts if other in _UNCARRIED), None)
         ordered.append(f if cause is None else _following(f, cause))
     return tuple(sorted(ordered, key=lambda f: (f.follows is not None, f.follows is None and f.rule in rare)))
 
@@ -245,15 +247,16 @@ def followed(findings):
     }
 
 
-def _cause(rule, fired):
+def _cause(rule, counts, often):
     if rule in _OF_MANY:
-        return next((other for other in fired if _explains(other, rule)), None)
+        return next((other for other in often if _explains(other, rule)), None)
     if rule in _ALWAYS_LATER:
-        return next((other for other in fired if other not in _ALWAYS_LATER), None)
+        causes = (other for other in counts if other not in _ALWAYS_LATER)
+        return next((other for other in causes if counts[other] >= _ENOUGH * counts[rule]), None)
     for group in _TOGETHER:
         if rule in group:
             for other in group[: group.index(rule)]:
-                if other in fired:
+                if counts.get(other, 0) >= _ENOUGH * counts[rule]:
                     return other
     return None
 
@@ -269,7 +272,8 @@ def _explains(cause, rule):
     if rule in ("mean", "variance") or cause in _NUMBERS:
         return True
     if rule.startswith("directions"):
-        return cause.startswith(_BOUNCES) or cause.startswith("directions")
+        going = cause.startswith(_BOUNCES) and cause not in _AMOUNTS
+        return going or cause.startswith("directions")
     if rule.startswith("lamp"):
         return cause.startswith("light-") or cause.startswith("lamp")
     return cause.startswith("roulette")

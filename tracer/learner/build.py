@@ -55,8 +55,8 @@ class Builder:
         """
         terms = _Terms(call)
         if call.hit is None:
-            zero = np.zeros(3)
-            self._put(ESCAPE, call.depth, d=call.ray.direction.plain, Le=zero, w=0.0, contribution=zero)
+            d, brought = call.ray.direction.plain, beta * call.returned.value
+            self._put(ESCAPE, call.depth, d=d, Le=np.zeros(3), w=0.0, contribution=brought)
             return "escaped", 0
         self._hit(call, beta, pdf, terms)
         for sample in call.lights:

@@ -8,7 +8,7 @@ import numpy as np
 
 from tracer import film
 from tracer.engine.picture import Picture, PixelRecord
-from tracer.events import END_REASONS, KINDS
+from tracer.events import END_REASONS, KINDS, UNSAID
 from tracer.recorder import RecordedEvent, RecordedPath
 from tracer.settings import TracerError
 from tracer.trace.trace import Trace, replaced_steps
@@ -108,5 +108,5 @@ def _path(trace, row, radiance, events):
     columns = trace.paths
     x, y = int(columns["x"][row]), int(columns["y"][row])
     at = columns["film"][:, row] if "film" in columns else np.array([x + 0.5, y + 0.5])
-    end = END_REASONS[int(columns["end"][row])] if "end" in columns else "absorbed"
+    end = END_REASONS[int(columns["end"][row])] if "end" in columns else UNSAID
     return RecordedPath(x, y, int(columns["sample"][row]), at, radiance, end, events)

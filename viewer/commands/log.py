@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 import tracer
-from tracer.settings import TracerError
+from tracer.settings import ANY_DEPTH, TracerError
 from viewer.options import Json, print_json
 from viewer.words import Speaker
 
@@ -61,7 +61,8 @@ def log(
     for note in found.notes:
         print(say("log.note", note=say.error(note)))
     if found.read_off:
-        said = say.listed(*(f"{name} {value}" for name, value in found.read_off.items()))
+        known = ((name, value) for name, value in found.read_off.items() if value != ANY_DEPTH)
+        said = say.listed(*(f"{name} {value}" for name, value in known))
         print(say("log.read_off", what=said))
 
 

@@ -33,7 +33,8 @@ def ledger(evidence):
     recorded = evidence("path.radiance")
     room = (many + 4.0) * 2.0 * evidence.eps * sizes + 1e-36
     finite = np.isfinite(right).all(axis=0)
-    bad = ~(np.abs(recorded - right) <= room).all(axis=0)
+    same = (np.abs(recorded - right) <= room) | (np.isnan(recorded) & np.isnan(right))
+    bad = ~same.all(axis=0)
     invalid = evidence("path.end") == _REASON["invalid"] if evidence.has("path.end") else ~finite
     bad = np.where(invalid & ~finite, (recorded != 0.0).any(axis=0), bad)
     return Outcome("path", np.arange(bad.size), bad, np.zeros_like(bad), recorded, right, "radiance")

@@ -146,6 +146,7 @@ def visible(evidence):
     normals = evidence.at_vertex("light", "n")[:, rows], evidence.brute.normals(q, np.maximum(target, 0))
     for n in normals:
         unsure |= ~seen & (np.abs(dot(n, q - p)) <= 4.0 * evidence.off_vertex)
+    unsure |= ~seen & (target >= 0) & (dot(normals[1], q - p) >= 0.0)  # nor behind the lamp
     return Outcome("light", rows, bad & ~unsure, unsure, seen, ~blocked, "visible")
 
 

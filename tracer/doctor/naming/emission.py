@@ -98,7 +98,15 @@ def last_density(case):
     return None
 
 
+def escaped(case):
+    """What a ray brings that meets nothing."""
+    if np.any(case.right != 0.0):
+        return None
+    return Clue(None, "nothing is met there: what was met before may be used again")
+
+
 NAMES = {
+    "environment-term": escaped,
     "pdf-of-last-bounce": last_density,
     "emission-weight": weight,
     "environment-weight": weight,

@@ -8,11 +8,14 @@ from itertools import combinations
 
 import numpy as np
 
+from tracer.doctor.naming import bounds
 from tracer.doctor.naming.case import CLOSE, SHARE
+from tracer.events import KINDS
 from tracer.frame import dot
 
 _FEWEST = 16  # events that a product has to fit
 _FINE = 16.0  # machine epsilons by which a number may be off that is hardly wrong
+_COLOURS = ("red", "green", "blue")
 _POWERS = (1, -1, 2, -2)
 _KNOWN = {"pi": np.pi, "2 pi": 2.0 * np.pi, "4 pi": 4.0 * np.pi, "pi^2": np.pi**2}
 _OF = {
@@ -53,9 +56,26 @@ def _told(case, ratio, there, close):
     right = np.broadcast_to(case.right, case.recorded.shape)[..., there]
     if _fits(ratio / right, close):
         return "recorded = right^2"
-    return _product(ratio, _quantities(case, there, close), close) or _of_colours(
-        case.recorded[..., there], right
-    )
+    said = _product(ratio, _quantities(case, there, close), close) or bounds.words(case, ratio, there)
+    if said or _of_space(case):
+        return said
+    said = _of_colours(case.recorded[..., there], right)
+    return said and said + _only_on(case)
+
+
+def _only_on(case):
+    """The surface, if it is one of several, on which all of the events are."""
+    if case.kind not in ("light", "bounce"):
+        return ""
+    scene = case.evidence.scene
+    shape = np.unique(scene.shape_of.take(case.vertex("primitive")))
+    return f"; only on {scene.shapes[shape[0]].name}" if shape.size == 1 < len(scene.shapes) else ""
+
+
+def _of_space(case):
+    """Whether the numbers are a point or a direction, whose components are no colours."""
+    fields = (field for kind in KINDS if kind.name == case.kind for field in kind.fields)
+    return case.outcome.what in {field.name for field in fields if field.domain in ("point", "unit vector")}
 
 
 def _of_colours(recorded, right):
@@ -65,9 +85,14 @@ def _of_colours(recorded, right):
     if _alike(recorded[0], recorded):
         mean = _alike(right.mean(axis=0), recorded)
         return f"recorded is {'the mean of the colours' if mean else 'the same for all colours'}"
+    for one, other in combinations(range(3), 2):
+        order = np.arange(3)
+        order[[one, other]] = other, one
+        if all(_alike(a, b[None]) for a, b in zip(right[order], recorded, strict=True)):
+            return f"{_COLOURS[one]} and {_COLOURS[other]} are exchanged"
     good = [_alike(a, b[None]) for a, b in zip(recorded, right, strict=True)]
     if any(good):
-        names = [name for name, there in zip(("red", "green", "blue"), good, strict=True) if there]
+        names = [name for name, there in zip(_COLOURS, good, strict=True) if there]
         return f"{' and '.join(names)} {'are' if len(names) > 1 else 'is'} right, the rest not"
     return ""
 

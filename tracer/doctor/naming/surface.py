@@ -5,12 +5,18 @@ import numpy as np
 from tracer.doctor.naming.case import SHARE, Clue, first
 from tracer.frame import dot, length
 
+_SOME = 0.05  # share of the vertices from which on a surface is worth its name
+_FEW_NORMALS = 64  # circles of two degrees around so many cover a fiftieth of the sphere
+_SAME = 0.9994  # cosine of two degrees
+
 
 def on_surface(case):
     """Vertices that do not lie on their surfaces."""
     scene = case.evidence.scene
-    names = sorted({scene.shapes[k].name for k in np.unique(scene.shape_of.take(case["primitive"]))})
-    return Clue(None, f"on {', '.join(names)}, by up to {case.recorded.max():.2g}")
+    shape, count = np.unique(scene.shape_of.take(case["primitive"]), return_counts=True)
+    most = np.argsort(-count, kind="stable")[: np.count_nonzero(count >= _SOME * count.sum())]
+    names = ", ".join(scene.shapes[k].name for k in shape[most])
+    return Clue(None, f"mostly on {names}, half of them by more than {np.median(case.recorded):.3g}")
 
 
 def normal(case):
@@ -21,7 +27,7 @@ def normal(case):
         return Clue(
             None, "recorded = -right wherever the back is seen: it is turned to where the ray comes from"
         )
-    return first(
+    named = first(
         case,
         [
             (
@@ -36,6 +42,20 @@ def normal(case):
             ),
         ],
     )
+    return named or _of_others(case)
+
+
+def _of_others(case):
+    """A table of normals that is read at a wrong place, or the record of another hit: told where the scene
+    has so few normals that meeting one is no chance."""
+    every = case.evidence.brute.n
+    own = every[:, np.unique(every.round(2) + 0.0, axis=1, return_index=True)[1]]
+    clear = dot(case.recorded, case.right) < _SAME * length(case.recorded)
+    if own.shape[1] > _FEW_NORMALS or clear.mean() < 0.5:
+        return None
+    recorded = case.recorded[:, clear]
+    met = (own.T @ recorded >= _SAME * length(recorded)).any(axis=0)
+    return Clue(None, "recorded are the normals of other surfaces") if met.mean() >= SHARE else None
 
 
 def shading(case):

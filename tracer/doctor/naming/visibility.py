@@ -35,7 +35,8 @@ def visible(case):
         return Clue("D03", "seen and blocked are exchanged")
     if not wrongly_dark.any():
         share = wrongly_seen.sum() / (~free).sum()
-        return Clue(None, f"{share:.0%} of the blocked light points count as seen")
+        said = f"{share:.0%}" if share >= 0.01 else f"{100.0 * share:.1g}%"
+        return Clue(None, f"{said} of the blocked light points count as seen")
     return Clue(None, "some free light points count as blocked, and some blocked ones as seen")
 
 

@@ -4,7 +4,7 @@ from tracer.doctor.picture.features import Features, features, resampled
 from tracer.doctor.picture.fitting import Fit, Looks, fit, misfit
 from tracer.doctor.picture.hypotheses import FITS, LEAST, Hypothesis, Opinion, judged, likelier_curve
 from tracer.doctor.picture.reading import opened
-from tracer.doctor.picture.walls import Wall, predicted
+from tracer.doctor.picture.walls import Wall, predicted, strangest
 
 __all__ = [
     "FITS",
@@ -23,4 +23,5 @@ __all__ = [
     "opened",
     "predicted",
     "resampled",
+    "strangest",
 ]

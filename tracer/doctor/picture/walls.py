@@ -9,6 +9,9 @@ from tracer.doctor.picture.features import CELLS, resampled
 _MOSTLY = 0.75  # of what a cell shows: one object
 _FEW = 6  # pixels well inside an object; with fewer those at its edge count, too
 
+_OTHERS = 3  # objects from which on one can be unlike the others
+_STRANGE = np.log(1.8)  # noise and what a neighbour reflects stay below
+
 
 @dataclass(frozen=True)
 class Wall:
@@ -62,6 +65,24 @@ def predicted(wall, looks, right, eight_bits):
         return None
     a, b = (f.mean if eight_bits else f.bright for f in (looks, right))
     return _over(a[wall.cells].mean(axis=0), b[wall.cells].mean(axis=0))
+
+
+def strangest(walls):
+    """(the Wall that is off most unlike the others, whether in colour rather than in brightness); (None,
+    False) where none stands out."""
+    seen = [wall for wall in walls if np.isfinite(wall.ratio).all() and (wall.ratio > 0.0).all()]
+    if len(seen) < _OTHERS:
+        return None, False
+    off = np.log([wall.ratio for wall in seen])
+    bright = off.mean(axis=1)
+    for size, coloured in (
+        (np.abs(off - bright[:, None]).max(axis=1), True),
+        (np.abs(bright - np.median(bright)), False),
+    ):
+        first, second = np.argsort(-size, kind="stable")[:2]
+        if size[first] > max(_STRANGE, 2.0 * size[second]):
+            return seen[first], coloured
+    return None, False
 
 
 def _over(a, b):
