@@ -18,6 +18,7 @@ import numpy as np
 import tracer
 from lessons.zoo import planted
 from tracer.picture import write_whole
+from tracer.scene import Scene
 from tracer.settings import TracerError
 from tracer.trace import folder
 from tracer.trace.stored_scene import restore
@@ -56,7 +57,7 @@ def show(what="cornell_unit", settings=None, *, pixel=None, compare=None, live=T
     """
     scene, settings, recording = _asked(what, settings, options)
     settings = settings.at_size_of(scene)
-    x, y = telling_pixel(scene, settings) if pixel is None else pixel
+    x, y = telling_pixel(scene, settings) if pixel is None else _place(pixel)
     record = tracer.inspect(scene, settings, x, y, steps=planted(settings))
     path = brightest(record)
     lengths = tuple(len(one.events) for one in record.paths)
@@ -66,12 +67,23 @@ def show(what="cornell_unit", settings=None, *, pixel=None, compare=None, live=T
     return Shown(html, _Server(scene, settings, place, recording, compare) if live else None, frame)
 
 
+def _place(pixel):
+    """The column and row that were asked for."""
+    if np.shape(pixel) != (2,):
+        raise TracerError(f"pixel: {pixel!r:.40} is not (x, y)")
+    return pixel
+
+
 def _asked(what, settings, options):
     """Scene, settings and, of a recording, its folder."""
     if settings is not None and options:
         raise TracerError(f"show: give settings, or {', '.join(options)}, not both")
+    if isinstance(what, (str, Path)) and str(what).lower().endswith((".py", ".jsonl")):
+        raise TracerError(f"show: {what} is another tracer's; castray view {what} --scene SCENE opens it")
     if isinstance(what, (str, Path)) and not is_recording(str(what)):
         what = tracer.load(what)
+    if not isinstance(what, (str, Path, Trace, Scene)):
+        raise TracerError(f"show: {what!r:.40} is no scene, no file of one, no recording and no trace")
     if not isinstance(what, (str, Path, Trace)):
         return what, settings or tracer.Settings(**options), None
     if settings is not None or options:

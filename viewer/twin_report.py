@@ -21,6 +21,7 @@ from viewer.words import Speaker
 from viewer.zoo import title_of
 
 _WIDEST = 100
+_NEARLY = 0.9  # of the pairs
 _CAUSES = 8  # most kinds of parting that are listed
 
 
@@ -36,7 +37,11 @@ def print_twin(twin, sides, bug=None, console=None):
     if not twin.differing:
         console.print(say("twin.no_twins"))
         return
-    _print_causes(twin, names, bug, say, console)
+    if not bug and _out_of_step(twin, sides):
+        console.print(Folded(Text(say("twin.other_numbers"), style="bold yellow")))
+        if any(side.trace.culled for side in sides):
+            console.print(Folded(Text(say("twin.own_seed"), style="yellow")))
+    _print_causes(twin, names, say, console)
     if twin.told is not None:
         print_shares(twin, names, say, console)
     _print_example(twin.largest[0], names, sides, say, console)
@@ -78,7 +83,16 @@ def _print_same(twin, bug, say, console):
         console.print(Text(words, style="cyan"), soft_wrap=True)
 
 
-def _print_causes(twin, names, bug, say, console):
+def _out_of_step(twin, sides):
+    """Whether paths part as those do that have nothing in common: at the camera or, of logs, which need not
+    have that, nearly all at the first surface."""
+    if twin.differing == twin.pairs and all(c.kinds[0] == "camera" for c in twin.causes):
+        return True
+    early = sum(cause.pairs for cause in twin.causes if max(cause.depths) == 0)
+    return sides[0].trace.culled and early >= _NEARLY * twin.pairs
+
+
+def _print_causes(twin, names, say, console):
     """Kinds of first difference, the most frequent first."""
     console.print(
         say(
@@ -89,8 +103,6 @@ def _print_causes(twin, names, bug, say, console):
             rounded=twin.rounded,
         )
     )
-    if not bug and twin.differing == twin.pairs and all(c.kinds[0] == "camera" for c in twin.causes):
-        console.print(Folded(Text(say("twin.other_numbers"), style="yellow")))
     console.print()
     console.print(Folded(Text(say("twin.where"), style="bold")))
     rows = table()

@@ -1,5 +1,7 @@
 """Which share of a twin run's difference comes from which technique and depth, as a table that adds up."""
 
+from pathlib import PurePath
+
 import numpy as np
 from rich.table import Table
 from rich.text import Text
@@ -107,6 +109,8 @@ def decimals_of(colours):
 
 
 def short_names(names, say):
-    """Both sides' names as a column has room for them."""
+    """Both sides' names as a column has room for them: of files without their folders, if these are alike."""
+    files = tuple(PurePath(name).name for name in names)
+    names = names if files[0] == files[1] else files
     cut = tuple(name if len(name) <= _NAME else "..." + name[3 - _NAME :] for name in names)
     return cut if cut[0] != cut[1] else (say("twin.first"), say("twin.second"))

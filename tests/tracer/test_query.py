@@ -196,7 +196,7 @@ def test_a_bomb_ends(box, bomb):
         ("n.q < 1", ('"q"', "character 3")),
         ("dott(n, wi) > 0", ("dott", "character 1")),
         ("SELECT pdff FROM events", ("pdff", "character 8")),
-        ("SELECT pdf FROM event", ("event",)),
+        ("SELECT pdf FROM event", ("event", "did you mean events", "views: paths, events")),
         ("", ("empty",)),
         ("'a' < n", ("query:",)),
     ],
@@ -206,6 +206,13 @@ def test_a_wrong_query_is_told_where_and_which_columns_there_are(box, text, said
         asker.ask(box, text) if not text else ask(box, text)
     line = str(refused.value)
     assert "\n" not in line and not [word for word in said if word not in line], line
+
+
+def test_a_name_that_nothing_has_is_told_with_the_nearest(box):
+    place = folder.whole(box)
+    assert query.strangers(place, "kind = 'light' AND blocker = 'floor'") == []
+    ((name, near),) = query.strangers(place, "kind = 'light' AND blocker = 'flor'")
+    assert name == "flor" and "floor" in near
 
 
 def test_where_only_paths_were_recorded_conditions_are_on_paths(tmp_path):

@@ -17,7 +17,7 @@ from suite import ROOT
 import tracer
 from lessons import zoo
 from tracer import trace
-from tracer.trace import folder, recording
+from tracer.trace import folder, parquet, recording
 
 SMALL = {"width": 6, "height": 5, "spp": 3, "max_depth": 6}
 
@@ -165,6 +165,14 @@ def test_a_recording_that_was_killed_goes_on_and_equals_the_uninterrupted_one(tm
         assert done.returncode == 0
     assert digests(tmp_path / "killed") == digests(tmp_path / "whole")
     assert there.items() <= digests(tmp_path / "killed").items()
+
+
+def test_ctrl_c_while_a_part_is_written_stops_as_at_any_other_time(tmp_path):
+    """DuckDB, which writes it, makes a RuntimeError of it."""
+    with pytest.raises(KeyboardInterrupt), parquet.explained(tmp_path):
+        raise RuntimeError("Query interrupted")
+    with pytest.raises(RuntimeError, match="anything else"), parquet.explained(tmp_path):
+        raise RuntimeError("anything else")
 
 
 def test_another_recording_in_the_folder_is_refused(tmp_path):

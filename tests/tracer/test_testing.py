@@ -216,6 +216,14 @@ def test_what_cannot_be_compared_is_refused(suite_seed):
         z_test(noisy(rng, 4), SimpleNamespace(rgb=np.ones((16, 16, 3)), variance=None, samples=None))
 
 
+def test_files_are_pictures_and_what_is_none_is_told_so(suite_seed, tmp_path):
+    one = rendered(suite_seed, 16)
+    tracer.write(one, tmp_path / "one.exr")
+    assert_same_picture(tmp_path / "one.exr", rendered(suite_seed + 1, 16))
+    with pytest.raises(TracerError, match="a ndarray is no picture"):
+        assert_same_picture(one.rgb, one)
+
+
 def test_a_failed_assertion_says_where_to_look_and_what_to_run(suite_seed):
     a, b = rendered(suite_seed, 16), rendered(suite_seed + 1, 16)
     assert_same_picture(a, b)

@@ -49,6 +49,9 @@ def test_scenes_recordings_and_traces_are_shown(tmp_path):
         ("no such scene", {}, "no such scene"),
         ("cornell_unit", {"settings": tracer.Settings(), "spp": 4}, "not both"),
         ("cornell_unit", {"pixel": (99, 0), **SMALL}, "outside the picture"),
+        ("cornell_unit", {"pixel": 5, **SMALL}, r"5 is not \(x, y\)"),
+        ("mine.jsonl", {}, "castray view mine.jsonl --scene SCENE"),
+        (3, {}, "3 is no scene"),
     ],
 )
 def test_what_cannot_be_shown_is_one_clear_line(what, options, words):

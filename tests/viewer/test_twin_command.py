@@ -114,6 +114,10 @@ def test_two_logs_are_compared(tmp_path, capsys):
     assert run("twin", one, other, "--scene", "cornell", "--json") == 1
     (cause,) = json.loads(capsys.readouterr().out)["causes"]
     assert (cause["what"], cause["example"]["numbers"]["t"]) == ("t", [5.0, 6.0])
+    assert run("twin", one, other, "--scene", "cornell") == 1
+    out = capsys.readouterr().out
+    assert "were the random numbers the same?" in out and "for every path" in " ".join(out.split())
+    assert f"castray view '{other}#x=3&y=5&path=0&event=0' --scene cornell" in out
 
 
 @pytest.mark.parametrize(

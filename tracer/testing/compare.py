@@ -1,10 +1,12 @@
 """Two pictures compared as far as what is known of them allows, and where to look if they differ."""
 
+import os
 from dataclasses import dataclass, fields
 
 import numpy as np
 
-from tracer.settings import Settings, both_told
+from tracer.picture import read
+from tracer.settings import Settings, TracerError, both_told
 from tracer.testing.errorbars import settings_of, why_unknown
 from tracer.testing.errors import Errors, errors
 from tracer.testing.ztest import ALPHA, Comparison, z_test
@@ -56,13 +58,24 @@ def compare(a, b, alpha=ALPHA, names=("the first", "the second"), scene=None):
 def assert_same_picture(a, b, alpha=ALPHA, scene=None):
     """AssertionError unless two pictures are the same but for noise; it says how and where to look.
 
-    a, b: pictures with .rgb, .variance and .samples, from different seeds; where no variance is known they
-    must be equal but for rounding. alpha: chance that two right pictures fail. Raises TracerError where sizes
-    differ.
+    a, b: pictures with .rgb, .variance and .samples, or files of such (.exr of tracer.write keeps all), from
+    different seeds; where no variance is known they must be equal but for rounding. alpha: chance that two
+    right pictures fail. Raises TracerError where sizes differ, and for what is no picture.
     """
-    verdict = compare(a, b, alpha, scene=scene)
+    verdict = compare(_picture(a), _picture(b), alpha, scene=scene)
     if not verdict.same:
         raise AssertionError(f"the pictures differ\n{verdict}")
+
+
+def _picture(given):
+    """A picture, read if it is a file."""
+    if isinstance(given, (str, os.PathLike)):
+        return read(given)
+    if not hasattr(given, "rgb"):
+        raise TracerError(
+            f"a {type(given).__name__} is no picture with .rgb: give what tracer.render returns, or a file"
+        )
+    return given
 
 
 def _notes(a, b, names, distance, z, without):

@@ -81,11 +81,16 @@ def quoted(name):
 
 @contextmanager
 def explained(place):
-    """DuckDB's complaints as one TracerError that names the place."""
+    """DuckDB's complaints as one TracerError that names the place; and Ctrl-C as such, of which it makes a
+    RuntimeError."""
     import duckdb
 
     try:
         yield
+    except RuntimeError as error:
+        if str(error) != "Query interrupted":
+            raise
+        raise KeyboardInterrupt from None
     except (duckdb.Error, OSError) as error:
         line = " ".join(str(error).split("\n\n")[0].split())
         raise TracerError(f"{place}: {line}") from None

@@ -58,6 +58,13 @@ def limit_memory():
         return
 
 
+def strangers(place, text):
+    """What a query names in quotes that nothing in the recording is called: [(name, names that are near)]."""
+    known = sorted({name for names in place.header["names"].values() for name in names})
+    asked = dict.fromkeys(re.findall(r"'([^']*)'", text))
+    return [(name, get_close_matches(name, known, 3, 0.5)) for name in asked if name not in known]
+
+
 def answer(place, text, limit):
     """What the recording in the Folder `place` answers to a condition or a SELECT, in this process.
 
@@ -240,14 +247,14 @@ def _explained(error, text, before, level):
         return QueryError(f"query: needs too much memory ({words}); ask for less")
     if name is None and (found := re.search(r'"([^"]+)"', words)):
         name = found.group(1)
-    names = views.names(level)
+    names = ("paths", "events")[: 1 + (level == "events")] if "no view" in words else views.names(level)
     nearest = [] if name in (*names, None) or "syntax" in words else get_close_matches(name, names, 3, 0.5)
     near = f"; did you mean {' or '.join(nearest)}?" if nearest else ";"
     if level == "paths" and name in views.names("events"):
         near = "; this recording has paths only (--record-level events keeps more);"
     at = _place(text, position, before, name)
     where = "" if at is None else f", at character {at + 1}: {' '.join(text[at : at + 20].split())!r}"
-    line = f"query: {words}{where}{near} columns: {', '.join(names)}"
+    line = f"query: {words}{where}{near} {'views' if 'no view' in words else 'columns'}: {', '.join(names)}"
     return QueryError(line, f"{words}{near}".rstrip(";"), at, names)
 
 

@@ -11,7 +11,7 @@ from tracer.settings import TracerError
 from tracer.trace import folder
 from tracer.trace.asker import ask
 from tracer.trace.breakpoints import BREAKPOINTS, condition
-from tracer.trace.query import SECONDS
+from tracer.trace.query import SECONDS, strangers
 from viewer.link import Link
 from viewer.options import Json, Whole, print_json
 from viewer.words import Speaker
@@ -80,9 +80,19 @@ def query(
         print_json({"trace": str(trace), "condition": asked, **answer})
     else:
         _print_paths(answer)
+        if not answer["found"]:
+            _print_strangers(strangers(place, asked))
         if mask is not None:
             print(Speaker()("told.mask", file=mask))
     return 0
+
+
+def _print_strangers(names):
+    """Why nothing was found: names that nothing in the recording has."""
+    say = Speaker()
+    for name, near in names:
+        said = say("query.near", near=say.listed(*map(repr, near))) if near else ""
+        print(say.sentences(say("query.stranger", name=repr(name)), said))
 
 
 def _link(place, path):

@@ -219,11 +219,13 @@ def _print_picture(picture, path):
     say, rate = Speaker(), picture.paths / max(picture.seconds, 1e-9)
     cost = {"paths": picture.paths, "seconds": f"{picture.seconds:.2f}", "rate": f"{rate:.3g}"}
     print(say("render.done", path=path, width=width, height=height, **cost))
-    if picture.samples.min() < picture.samples.max():
+    if not picture.complete:
+        done = picture.samples.mean() / spp
+        print(say("render.stopped", done=f"{done:.0%}", least=picture.samples.min(), spp=spp))
+    elif picture.samples.min() < picture.samples.max():
         every = sorted(picture.samples.ravel().tolist())
         spent = {"least": every[0], "most": every[-1], "median": every[len(every) // 2], "spp": spp}
-        print(say("render.spent", saved=f"{picture.saved:.1%}", **spent))
-    if not picture.complete:
-        print(say("render.stopped", least=picture.samples.min(), spp=spp))
+        key = "render.spent_less" if picture.saved > 0.0 else "render.spent"
+        print(say(key, saved=f"{picture.saved:.1%}", **spent))
     if picture.dropped:
         print(say("render.dropped", n=picture.dropped))

@@ -36,7 +36,7 @@ WORDS = {
         "bench.alone": "{label} alone was measured",
         "bench.exact": "no error is to be seen at {spp} samples per pixel: {labels}",
         "bench.best": "{label} is the most efficient at {spp} samples per pixel, {times} times as much as {second}, and under every seed",
-        "bench.tied": "{label} is the most efficient at {spp} samples per pixel, but not under every seed: {labels}",
+        "bench.tied": "{label} is the most efficient at {spp} samples per pixel, but under some seeds another is: {labels}",
     },
     "zh": {
         "bench.machine": "{processor}，{cores} 个核心，Python {python}，NumPy {numpy}",
