@@ -1,8 +1,45 @@
 """The picture in the making: begun anew, painted further in a thread of its own, and told to the page."""
 
 import asyncio
+import threading
+from collections import deque
 
-from viewer.render import COMPARED, Painter
+from viewer.render import COMPARED, Painter, passes
+
+TOGETHER = 0.15  # seconds that words wait for a picture, so that the page is drawn once for both
+
+
+class Post:
+    """What a painter tells from its thread: read in the loop when it is there, or sooner by who waits."""
+
+    def __init__(self, loop):
+        self._loop, self._letters, self._awaited, self._wanted = loop, deque(), threading.Event(), True
+
+    def sender(self, call, awaited=True):
+        """The call, made in the loop; awaited: whether somebody waits for it."""
+
+        def send(*words):
+            self._letters.append((call, words))
+            if awaited:
+                self._awaited.set()
+            self._loop.call_soon_threadsafe(self.read)
+
+        return send
+
+    def read(self):
+        """Do what was told and has not been done."""
+        while self._letters and self._wanted:
+            call, words = self._letters.popleft()
+            call(*words)
+
+    def wait(self, seconds):
+        """Wait, at most that long, for the first that somebody waits for."""
+        self._awaited.wait(seconds)
+        self.read()
+
+    def refuse(self):
+        """Do nothing more of what is told."""
+        self._wanted = False
 
 
 class Painting:
@@ -11,12 +48,13 @@ class Painting:
     def __init__(self, window):
         self.window, self.session, self.state = window, window.session, window.state
         self.followers = []  # told when a picture is begun() and when it has been painted() further
-        self._painter, self._rendered = None, None
+        self._painter, self._post, self._rendered = None, None, None
+        self._pace = None  # seconds that a path of the last picture took
 
     def begin(self):
         """Begin the picture anew."""
         self.stop()
-        loop, settings = asyncio.get_running_loop(), self.session.settings
+        settings = self.session.settings
         size = 12 * settings.width * settings.height
         if len(self.state.rgb) != size:  # else the picture before stays until there is a new one
             self.state.rgb = bytes(size)
@@ -30,15 +68,17 @@ class Painting:
         painter = Painter(self.session.scene, settings, None if compared else self.gl)
         painter.why = COMPARED if compared and self.gl else ""
 
-        def here(call):
-            """The call made in the loop, from the painter's thread; not of a painter that was replaced."""
-            return lambda *told: loop.call_soon_threadsafe(
-                lambda: call(*told) if painter is self._painter else None
-            )
-
-        self._painter = painter
-        painter.start(here(self._painted), here(self._progress), here(self._failed))
+        self._painter, self._post = painter, Post(asyncio.get_running_loop())
+        painted, failed = (self._post.sender(call) for call in (self._painted, self._failed))
+        painter.start(painted, self._post.sender(self._progress, awaited=False), failed)
         self.tell_begun()
+
+    def wait(self):
+        """Take the first picture in with all else that is told now, where it can be there within TOGETHER."""
+        settings = self.session.settings
+        paths = settings.width * settings.height * passes(settings.spp)[0]
+        if self._painter and self._pace is not None and paths * self._pace <= TOGETHER:
+            self._post.wait(TOGETHER)
 
     def tell_begun(self):
         """Tell the followers that the picture is another."""
@@ -54,9 +94,11 @@ class Painting:
         """Give up the picture that is being rendered, if there is one."""
         if self._painter:
             self._painter.stop()
+            self._post.refuse()
 
     def _painted(self, picture, spp):
         self.session.spp_done, self.session.picture = spp, picture
+        self._pace = picture.seconds / picture.paths if self._painter else None
         self.session.numpy_why = self._painter.why if self._painter else ""
         complete = spp == self.session.settings.spp
         with self.state as state:

@@ -198,6 +198,7 @@ class Window:
         self._push_surfaces()
         self.state.update({"touched": True, "message": ""})
         self.refresh("picture")
+        self.painting.wait()
 
     def give(self, given):
         """Show the paths of another tracer in place of castray's own."""
