@@ -4,8 +4,8 @@ from dataclasses import replace
 from functools import cache
 
 from lessons.zoo import ZOO
-from lessons.zoo.pictures import album, mixtures, suited
-from tracer.doctor.picture import judged, likelier_curve, opened
+from lessons.zoo.pictures import album, mixtures, straight_and_all, suited
+from tracer.doctor.picture import clues, features, judged, likelier_curve, opened
 from tracer.picture import check_path
 from tracer.settings import TracerError
 from viewer.options import DoctorOptions, scene_of
@@ -41,7 +41,13 @@ def opinion_on(given, scene, spp=None, progress=None, known=None):
     if known is None:
         known = album(scene, suited(scene, ZOO.values()), progress)
     values, eight_bits, curves = given
-    return judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO, progress), spp), known
+    opinion = judged(values, eight_bits, curves, scene, known, mixtures(scene, ZOO, progress), spp)
+    if not opinion.is_right and not opinion.hypotheses:
+        reading, right = opinion.reading, known.rights[0]
+        seen = features(reading.rgb, reading.eight_bits)
+        found = clues(opinion, seen, right.near(max(right.at)), scene, *straight_and_all(scene))
+        opinion = replace(opinion, clues=found)
+    return opinion, known
 
 
 def _spp(path, options):

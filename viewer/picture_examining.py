@@ -92,6 +92,6 @@ def shown(session, say):
         words = "pic.right" if guess.opinion.is_right else "pic.hypotheses" if found else "pic.nothing"
         told["verdict"], told["good"] = say(words), guess.opinion.is_right
         told["hypotheses"] = [[*said_of(h, guess.album, say)] for h in found]
-        if words == "pic.nothing":
-            told["hypotheses"] = [[*beyond(guess.opinion, say)]]
+        if guess.opinion.clues is not None:
+            told["hypotheses"] = [[*beyond(guess.opinion, session.scene.name, say)]]
     return told

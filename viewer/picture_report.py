@@ -15,6 +15,7 @@ from viewer.folded import Folded
 from viewer.words import Speaker
 
 _RULES = {rule.id: rule for rule in (*LAWS, *statistics.RULES)}
+_WORTH = 0.5  # share of what is off that the nearest mistake explains, to be named
 _LOGGED = 3  # columns that are asked for, of each mistake
 
 
@@ -39,7 +40,26 @@ def as_dict(opinion, picture, scene, album):
         "walls": [{"object": w.name, "ratio": _numbers(w.ratio), "share": w.share} for w in opinion.walls],
         "hypotheses": [_hypothesis(h, opinion, album) for h in opinion.hypotheses],
         "nearest": opinion.nearest and _hypothesis(opinion.nearest, opinion, album),
+        "clues": opinion.clues and _clues(opinion.clues),
         "findings": [],
+    }
+
+
+def _clues(found):
+    counts = ("agree", "straight", "around", "below")
+    return {
+        "objects": [
+            {
+                "object": seen.name,
+                "says": seen.state,
+                "direct": None if np.isnan(seen.direct) else seen.direct,
+            }
+            for seen in found.objects
+        ],
+        **{name: dict(zip(("places", "of"), getattr(found, name), strict=True)) for name in counts},
+        "power": found.power,
+        "of_material": found.of_material,
+        "log": list(found.log),
     }
 
 
@@ -91,14 +111,17 @@ def print_opinion(opinion, picture, scene, album, guessed, console=None):
         console.print(Folded(Text(say("pic.right"), style="bold green")))
         console.print(Folded(Text(say("pic.right_but"), style="dim")))
     elif not opinion.hypotheses:
-        _print_nothing(opinion, say, console)
+        _print_nothing(opinion, scene, say, console)
     else:
         console.print(Folded(Text(say("pic.hypotheses"), style="bold yellow")))
         for h in opinion.hypotheses:
             console.print()
             _print_hypothesis(h, album, say, console)
     console.print()
-    _print_walls(opinion, album, say, console)
+    if opinion.clues is not None:
+        print_objects(opinion.clues, say, console)
+    else:
+        _print_walls(opinion, album, say, console)
     console.print(Text(say("pic.beside", command=beside(picture, scene))), soft_wrap=True)
 
 
@@ -123,23 +146,49 @@ def _read_as(curve, say):
     return say(words, gamma=curve)
 
 
-def _print_nothing(opinion, say, console):
+def _print_nothing(opinion, scene, say, console):
     console.print(Folded(Text(say("pic.nothing"), style="bold red")))
-    for said in beyond(opinion, say):
+    for said in beyond(opinion, scene, say):
         console.print(Folded(Text(said)))
+    near = opinion.nearest
+    if near is not None and near.bugs and near.explains >= _WORTH:
+        said = say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains)
+        console.print(Folded(Text(said, style="dim")))
 
 
-def beyond(opinion, say):
-    """Lines on a picture that is wrong and that nothing in the catalogue fits: what there is to go on."""
+def beyond(opinion, scene, say):
+    """Lines on a picture that nothing in the catalogue fits: what stands out, what agrees and what that
+    excludes, how the rest is off, and what to log next. scene: as it was asked for."""
     wall, coloured = strangest(opinion.walls)
     if wall is not None:
         ratio = dict(zip(("red", "green", "blue"), wall.ratio.tolist(), strict=True))
         key = "pic.strangest_colour" if coloured else "pic.strangest"
         yield say(key, name=wall.name, **ratio, ratio=float(np.mean(wall.ratio)))
-    near = opinion.nearest
-    if near is not None and near.bugs:
-        yield say("pic.nearest", bugs=" + ".join(near.bugs), explains=near.explains)
-    yield say("pic.log_any")
+    found = opinion.clues
+
+    def count(name, numbers):
+        return say(f"pic.clue_{name}", n=numbers[0], of=numbers[1])
+
+    yield count("dim" if found.dim else "places", found.agree)
+    if found.direct_is_right:
+        yield count("straight", found.straight)
+    if found.direct_is_dark:
+        yield count("below", found.below)
+    if found.around[1]:
+        yield count("around", found.around)
+    if found.power is not None:
+        yield say(f"pic.clue_{'bright' if found.power < 1.0 else 'dark'}", power=found.power)
+    elif found.of_material:
+        yield say("pic.clue_material")
+    elif (
+        (worst := found.worst) is not None and opinion.reading.turn is None and opinion.reading.shape is None
+    ):
+        (low, low_at), (high, high_at) = worst.low, worst.high
+        places = {"low_at": "{}, {}".format(*low_at), "high_at": "{}, {}".format(*high_at)}
+        yield say("pic.clue_varies", name=worst.name, low=low, high=high, **places)
+    yield say("pic.log_three", fields=say.listed(*found.log))
+    pairs = ", ".join(f'"{name}", {name.rpartition(".")[2]}' for name in found.log)
+    yield say("pic.log_how", pairs=pairs, scene=shlex.quote(scene))
 
 
 def _print_hypothesis(h, album, say, console):
@@ -171,9 +220,7 @@ def said_of(h, album, say):
 
 
 def _print_walls(opinion, album, say, console):
-    first = next(
-        (h for h in (*opinion.hypotheses, opinion.nearest) if h is not None and h.looks is not None), None
-    )
+    first = next((h for h in opinion.hypotheses if h.looks is not None), None)
     table = Table(box=None, pad_edge=False)
     table.add_column(say("pic.object"), no_wrap=True)
     table.add_column(say("pic.yours"), no_wrap=True)
@@ -184,6 +231,21 @@ def _print_walls(opinion, album, say, console):
         if first is not None:
             row.append(Text(_three(_predicted(wall, first, opinion, album))))
         table.add_row(*row)
+    console.print(table)
+
+
+def print_objects(found, say, console):
+    """Each object of a picture that nothing fits: how far it is off, its share of direct light, and what that
+    says."""
+    table = Table(box=None, pad_edge=False)
+    table.add_column(say("pic.object"), no_wrap=True)
+    table.add_column(say("pic.yours"), no_wrap=True)
+    table.add_column(say("pic.direct"), justify="right")
+    table.add_column(say("pic.says"))
+    for seen in found.objects:
+        share = f"{seen.direct:.0%}" if np.isfinite(seen.direct) else ""
+        ends = {"low": seen.low[0], "high": seen.high[0]} if seen.low else {}
+        table.add_row(seen.name, _three(seen.ratio), share, say(f"pic.state_{seen.state}", **ends))
     console.print(table)
 
 

@@ -6,14 +6,16 @@ they are rendered small, when they are asked for.
 
 from collections import deque
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from lessons.zoo.bug import Bug
 from tracer.doctor.picture import Features, Looks, features
-from tracer.engine import waves
+from tracer.engine import render, waves
 from tracer.integrator.wave import Wave
+from tracer.settings import Settings
 
 TABLE = Path(__file__).with_name("cornell.npz")
 SIDE, SPP, SEED = 40, 256, 20_000  # of the table
@@ -22,6 +24,7 @@ _FEW, _MANY = (32, 16), (24, 64)  # side and samples per pixel of mixtures
 _MIXTURES = 10  # that are rendered at most: five of two mistakes, five of three
 # Right tracers: the homework's, in which the bugs are planted, and one that finds lamps by chance alone.
 RIGHTS = (Bug("right", "", "", "", "", {}), Bug("walk", "", "", "", "", {}, integrator="walk"))
+_SHARES = 64  # samples per pixel that tell light straight from lamps from other light
 _EVERY = 4  # levels of samples per pixel: 1, 4, 16, ...
 
 
@@ -74,6 +77,19 @@ def looks(scene, bug, side=QUICK_SIDE, most=QUICK_SPP, seed=SEED):
         at[spp] = _mean(pictures)
         spp *= _EVERY
     return Looks(at), pictures.mean(axis=0)
+
+
+@lru_cache(maxsize=4)
+def straight_and_all(scene):
+    """Right pictures (H, W, 3) of a scene, small: of the light that comes straight from lights to what is
+    seen, and of all that is reflected there."""
+    seen, direct, every = (
+        render(scene, Settings(**sized(scene, SIDE), spp=_SHARES, seed=SEED, max_depth=depth)).rgb.astype(
+            float
+        )
+        for depth in (1, 2, -1)
+    )
+    return direct - seen, every - seen
 
 
 def _mean(pictures):

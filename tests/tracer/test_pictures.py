@@ -6,18 +6,23 @@ samples per pixel, three integrators) never happened.
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import picture_table
 import pytest
 from cases import loaded, slow_but
+from outside import steps as outside
 
 import tracer
+from lessons import zoo
 from lessons.zoo import ZOO, alike, pictures
-from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, suited
-from tracer.doctor.picture import Hypothesis, features, fit, judged, likelier_curve, resampled
+from lessons.zoo.pictures import RIGHTS, album, all_at_once, looks, mixtures, stored, straight_and_all, suited
+from tracer.doctor.picture import Hypothesis, clues, features, fit, judged, likelier_curve, resampled
+from tracer.doctor.picture.clues import to_log
 from tracer.doctor.picture.walls import shown
 from tracer.picture import to_srgb
+from tracer.trace.jsonl.schema import call_fields
 
 CURVES = ("srgb", 0.6, 1.0)
 SCENE = loaded("cornell")
@@ -195,3 +200,75 @@ def test_it_is_told_how_many_mixtures_are_rendered(monkeypatch):
     for _ in range(11):
         mixed(("E01", "D06"), 64)
     assert told[0] == (1, 10) and told[9:] == [(10, 10), (11, 11), (12, 12)]
+
+
+def outsiders(settings=RIGHTS[0].settings, scene=SCENE, side=(64, 64), **changes):
+    """A picture in 8 bits by a tracer with a mistake that no catalogue has."""
+    size = {"width": side[0], "height": side[1], "spp": 32, "seed": 9}
+    asked = tracer.Settings(**outside.HOMEWORK | size | settings)
+    return screen(tracer.render(scene, asked, steps=zoo.changed(**changes)).rgb)
+
+
+def clued(values, scene=SCENE, known=None):
+    """What is said of a picture that nothing fits, however well something does."""
+    known = known or stored()
+    found = judged(values, True, CURVES, scene, known, lambda ids, spp: None)
+    right, reading = known.rights[0], found.reading
+    return reading, clues(
+        found, features(reading.rgb, True), right.near(max(right.at)), scene, *straight_and_all(scene)
+    )
+
+
+def test_a_mistake_of_the_materials_is_told_by_objects_that_share_one():
+    _, found = clued(outsiders(eval=outside.material_of_the_next))
+    assert found.of_material and found.power is None and not found.dim
+    assert found.direct_is_dark and {"light.f", "bounce.f"} <= {*found.log}
+
+
+def test_a_mistake_that_changes_from_place_to_place_excludes_exposure_and_names_the_object():
+    _, found = clued(outsiders(light_term=outside.cosine_of_the_lamp))
+    assert found.dim and found.worst is not None and "light.cos" in found.log
+    assert not found.of_material and found.power is None and not found.direct_is_right
+    assert {seen.state for seen in found.objects if seen.name == "lamp"} == {"unseen"}
+
+
+@pytest.mark.parametrize(
+    "changes", [{"film": outside.bent_by_the_root}, {"light_term": outside.without_throughput}], ids=list
+)
+def test_what_is_too_bright_where_it_is_dark_is_not_laid_to_the_light_sample(changes):
+    _, found = clued(outsiders(**changes))
+    assert 0.4 < found.power < 0.8 and {"direct", "indirect"} < {*found.log}
+    assert not (found.dim or found.direct_is_right or found.direct_is_dark)
+
+
+def test_a_right_picture_gives_no_clue_to_anything():
+    _, found = clued(outsiders())
+    assert found.agree[0] >= 0.9 * found.agree[1] and found.dim and found.direct_is_right
+    assert not found.direct_is_dark and found.worst is None and found.power is None and not found.of_material
+    assert {seen.state for seen in found.objects} <= {"agrees", "unsure", "unseen"}
+
+
+@pytest.mark.slow
+def test_what_glass_does_leaves_light_samples_and_the_curve_as_they_are():
+    scene = loaded("coloured_glass")
+    known = album(scene, [bug for bug in suited(scene, ZOO.values()) if bug.id in ("E01", "D10", "A01")])
+    values = outsiders({"integrator": "path"}, scene, (128, 80), transmittance=outside.half_absorbed)
+    reading, found = clued(values, scene, known)
+    assert reading.curve == "srgb" and found.dim and found.direct_is_right
+    assert found.log[0] == "hit.transmittance"
+
+
+@pytest.mark.parametrize(
+    ("media", "right", "material", "power"),
+    [
+        (1, True, False, None),
+        (None, True, False, None),
+        (1, False, True, None),
+        (1, False, False, 0.5),
+        (1, False, False, None),
+    ],
+)
+def test_what_is_to_be_logged_next_are_names_of_the_log(media, right, material, power):
+    found = SimpleNamespace(direct_is_right=right, of_material=material, power=power)
+    names = to_log(found, SimpleNamespace(media=media))
+    assert len({*names}) == 3 and {*names} <= call_fields().keys()

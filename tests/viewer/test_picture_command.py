@@ -1,16 +1,22 @@
 """`castray doctor PICTURE` on the command line."""
 
+import io
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from rich.console import Console
 from suite import castray
 
 import tracer
 from lessons.zoo import ZOO
 from tracer.doctor.picture import Wall, strangest
+from tracer.doctor.picture.clues import EVEN, UNSEEN, VARIES, Clues, Seen
 from tracer.scene_file.change import changed
+from viewer.picture_report import beyond, print_objects
+from viewer.words import Speaker
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +51,6 @@ def test_a_picture_gives_hypotheses_and_no_findings(folder):
     assert max(map(len, ran.stdout.splitlines()[1:-1])) <= 80
 
 
-@pytest.mark.slow
 @pytest.mark.slow
 def test_where_nothing_fits_the_object_that_stands_out_is_named_and_what_to_do_next(tmp_path):
     exchanged = changed(tracer.load("cornell"), {"red.reflectance": (0.065, 0.63, 0.05)})
@@ -103,3 +108,72 @@ def test_what_is_no_picture_is_one_line_and_code_2(folder, name):
 def test_options_that_do_not_fit_are_one_line_and_code_2(folder, words):
     ran = castray("doctor", *words, cwd=folder)
     assert ran.returncode == 2 and len(ran.stderr.splitlines()) == 1 and not ran.stdout
+
+
+ODD = Seen("left_wall", np.array([0.9, 1.1, 1.2]), 0.6, VARIES, (0.6, (24, 40)), (1.5, (8, 88)))
+CUT = Seen("lamp", np.ones(3), float("nan"), UNSEEN)
+FLOOR = Seen("floor", np.full(3, 0.5), 0.7, EVEN, (0.5, (1, 2)), (0.5, (3, 4)))
+THREE = ("light.f", "light.cos", "light.pdf")
+NONE = {"objects": (CUT, FLOOR), "agree": (1, 50), "straight": (0, 9), "around": (0, 0), "below": (0, 40),
+        "dim": False, "power": None, "of_material": False, "log": THREE}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("what", "en", "zh"),
+    [
+        ({"dim": True, "agree": (20, 50)}, "So exposure, the curve", "所以曝光"),
+        ({"straight": (7, 9)}, "So the light sample is right there", "那里的光源采样是对的"),
+        (
+            {"below": (9, 40)},
+            "9 of 40 places are darker than the light straight",
+            "有 9 处比仅由光源直接照亮时还暗",
+        ),
+        (
+            {"around": (3, 8)},
+            "3 of 8 places that get hardly any light straight",
+            "在几乎没有直接光的 8 处中，有 3 处",
+        ),
+        ({"power": 0.6}, "more too bright it is, about as right^0.60", "正确值的 0.60 次方"),
+        ({"power": 1.6}, "more too dark it is, about as right^1.60", "过暗得越多"),
+        ({"of_material": True}, "It goes with the material", "偏差随材质而定"),
+        (
+            {"objects": (FLOOR, ODD)},
+            "0.6 near pixel (24, 40), 1.5 near (8, 88)",
+            "在像素 (24, 40) 附近是 0.6",
+        ),
+    ],
+)
+def test_what_is_said_of_a_picture_that_nothing_fits_follows_from_its_clues(what, en, zh):
+    reading = SimpleNamespace(turn=None, shape=None)
+    opinion = SimpleNamespace(clues=Clues(**NONE | what), reading=reading, walls=())
+    plain = SimpleNamespace(clues=Clues(**NONE), reading=reading, walls=())
+    for language, words in (("en", en), ("zh", zh)):
+        say = Speaker(language)
+        told, least = (" ".join(beyond(o, "my box.toml", say)) for o in (opinion, plain))
+        assert words in told and words not in least
+        assert 'CASTRAY_LOG("light.f", f, "light.cos", cos, "light.pdf", pdf)' in told
+        assert "castray doctor castray.jsonl --scene 'my box.toml'" in told and "{" not in told
+        console = Console(file=io.StringIO(), width=80)
+        print_objects(opinion.clues, say, console)
+        assert all(name in console.file.getvalue() for name in ("floor", "70%"))
+
+
+@pytest.mark.slow
+def test_the_command_says_what_agrees_and_what_to_log_where_nothing_fits(tmp_path):
+    right = tracer.render(tracer.load("cornell"), ZOO["D06"].asked(width=48, height=48, spp=16, seed=5)).rgb
+    odd = right * np.where(np.arange(48) < 20, 1.0, np.linspace(0.3, 2.5, 48))[None, :, None]
+    tracer.write(odd.astype(np.float32), tmp_path / "odd.png")
+    ran = castray("doctor", tmp_path / "odd.png", "--scene", "cornell", env={"COLUMNS": "80"})
+    assert ran.returncode == 0, ran.stderr
+    said = " ".join(ran.stdout.split())
+    for words in (
+        "nothing in the catalogue fits",
+        "So exposure, the curve",
+        "Log these three next",
+        "CASTRAY_LOG(",
+    ):
+        assert words in said
+    clues = json.loads(castray("doctor", tmp_path / "odd.png", "--scene", "cornell", "--json").stdout)[
+        "clues"
+    ]
+    assert clues["agree"]["places"] >= 10 and len(clues["log"]) == 3

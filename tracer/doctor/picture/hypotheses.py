@@ -9,9 +9,9 @@ from itertools import islice
 import numpy as np
 
 from tracer.doctor.picture.features import CELLS, features, resampled
-from tracer.doctor.picture.fitting import Fit, fit, fits, misfit
+from tracer.doctor.picture.fitting import Fit, deviation, fit, fits, misfit
 from tracer.doctor.picture.mixing import guesses
-from tracer.doctor.picture.reading import GAMMA, NONE, SRGB, Reading, others, plain
+from tracer.doctor.picture.reading import GAMMA, NONE, SRGB, Reading, linear, others, plain
 from tracer.doctor.picture.walls import shown, walls
 
 MIXED = 0.9  # worse than that, mixtures are tried
@@ -28,6 +28,9 @@ _USUAL_SPP = 16
 _ACROSS = 16  # pixels of a row that are asked what they show
 _DIM = 0.6  # a cell that is so bright need not be clipped
 _FEW_CELLS = 16  # fewer that are not clipped say nothing about a factor
+_BRIGHT = 0.9  # means above it may be of pixels that are cut
+_DARK = 4e-3  # and below it be lost in 8 bits
+_FAR_MORE, _SOME = 2.0, 3  # times as many places, and this many more, speak for another curve
 _CLIPPED = 0.02  # share of a cell's pixels at 1 from which on it says nothing about brightness
 
 
@@ -57,7 +60,7 @@ class Opinion:
     """What a picture alone says. reading: how it was read; hypotheses: the likeliest first; nearest: the one
     that comes nearest where none fits; right: the Fit of the right tracer; walls: each object's brightness;
     invalid: share of pixels that are no numbers; likelier: the curve by which it would fit far better than
-    by the one that was said, None where there is none."""
+    by the one that was said, None where there is none; clues: what there is to say where nothing fits."""
 
     reading: Reading
     hypotheses: tuple
@@ -66,6 +69,7 @@ class Opinion:
     walls: tuple
     invalid: float
     likelier: object = None
+    clues: object = None
 
     @property
     def is_right(self):
@@ -95,6 +99,8 @@ def judged(values, eight_bits, curves, scene, album, mixed, spp=None):
     invalid = float(1.0 - np.isfinite(reading.rgb).all(axis=2).mean())
     found = (*_marked(reading, invalid, album.picture, scene), *_alike(fitting)[:_MOST])
     nearest = ranked[0] if off and not fitting else None
+    if nearest is not None and (curve := _other_curve(values, reading, curves, album)) is not None:
+        return judged(values, eight_bits, (curve,), scene, album, mixed, spp)
     shown = tuple(walls(reading.rgb, album.picture, scene, eight_bits))
     return Opinion(reading, found, nearest, right, shown, invalid)
 
@@ -151,6 +157,32 @@ def _least(seen, album, spp, hopeless=np.inf):
     return min(near.off, pairs[0][0]) / near.count
 
 
+def _other_curve(values, reading, curves, album):
+    """The curve by which far more places of a picture that nothing fits are right than as it was read: a
+    wrong one spoils all dim places, few mistakes do. None where there is none."""
+    if len(curves) < 2 or reading.turn is not None or reading.shape is not None:
+        return None
+    right = album.rights[0].near(max(album.rights[0].at))
+
+    def count(curve):
+        other = replace(reading, rgb=linear(values, curve), curve=curve)
+        _, good = agreeing(other, features(other.rgb, True), right)
+        return np.count_nonzero(good)
+
+    found = {curve: count(curve) for curve in curves}
+    best = max(found, key=lambda curve: found[curve])
+    return best if found[best] > _FAR_MORE * (found[reading.curve] + _SOME) else None
+
+
+def agreeing(reading, seen, right):
+    """Cells (8, 8) of a picture with Features `seen` that are neither dark nor cut off, and which of them are
+    right within noise."""
+    top = np.maximum(seen.mean, right.mean).max(axis=2)
+    used = unclipped(reading) & (top < _BRIGHT) & (right.mean.max(axis=2) > _DARK)
+    apart = deviation(seen.mean, seen.error, right.mean, right.error)
+    return used, used & ((apart**2).mean(axis=2) <= FITS)
+
+
 def _nearest(seen, many, spp):
     return min(fits(seen, many, spp).values(), key=lambda f: f.off)
 
@@ -194,7 +226,7 @@ def _mixtures(seen, album, singles, right, mixed, spp):
 def _factors(reading, seen, album, spp):
     """The right picture, brighter or darker throughout: exposure, or samples that were not divided by."""
     known = album.rights[0].near(spp or _USUAL_SPP)
-    cells = _unclipped(reading) & (known.mean.max(axis=2) < 0.9) & (known.mean.min(axis=2) > 0.0)
+    cells = unclipped(reading) & (known.mean.max(axis=2) < 0.9) & (known.mean.min(axis=2) > 0.0)
     if cells.sum() < _FEW_CELLS:
         return []
     mine, should = (f.mean if reading.eight_bits else f.bright for f in (seen, known))
@@ -214,7 +246,8 @@ def _factors(reading, seen, album, spp):
     return [replace(_hypothesis(bugs, found, album.rights[0], before), factor=factor, looks=None)]
 
 
-def _unclipped(reading):
+def unclipped(reading):
+    """Cells (8, 8) of a picture in which hardly a pixel is cut off at 1."""
     if not reading.eight_bits:
         return np.ones((CELLS, CELLS), bool)
     full = (reading.rgb >= 1.0).any(axis=2).astype(np.float64)
