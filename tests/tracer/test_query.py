@@ -1,5 +1,6 @@
 """Queries on a recording: right answers, one clear line for what is wrong, no way out of the recording."""
 
+import re
 import time
 
 import numpy as np
@@ -276,3 +277,9 @@ def test_the_page_of_the_format_has_every_field():
         for field in kind.fields:
             if field.carried:
                 assert field.meaning in page, field.name
+
+
+def test_names_and_meanings_stand_apart_on_the_page():
+    listed = views.schema().split("view paths")[1].splitlines()
+    begins = {re.match(r"  (\S+|\w+\(.*?\))  +", line).end() for line in listed if line.startswith("  ")}
+    assert len(begins) == 1 and "  transmittance.r.g.b  share of" in "\n".join(listed)

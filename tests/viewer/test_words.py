@@ -15,7 +15,8 @@ from lessons.zoo import FAMILIES, ZOO
 from tracer.doctor import LAWS, statistics
 from tracer.events import END_REASONS, KINDS
 from tracer.settings import Settings
-from tracer.trace.jsonl import read_log
+from tracer.trace import views
+from tracer.trace.jsonl import read_log, schema_text
 from tracer.trace.pixels import pixel, without_gaps
 from viewer.caption import caption, shown, unit_of, why_dead
 from viewer.equation import formulas
@@ -210,3 +211,19 @@ def test_the_one_light_sample_of_a_path_is_one(pixels):
         said = why_dead(path, scene, SAY)
         assert "1 light sample" not in said
         assert not said or ("its one light sample" in said) == (samples == 1)
+
+
+def test_the_pages_of_formats_are_chinese_but_for_names():
+    tell = Speaker("zh").optional
+    pages = views.schema(tell).split("\n宏\n")[0], schema_text(tell)
+    assert views.schema(Speaker("en").optional) == views.schema()
+    assert schema_text(Speaker("en").optional) == schema_text()
+    for page, other in zip(pages, (views.schema(), schema_text()), strict=True):
+        lines = [
+            line for line in page.splitlines() if line and not line.lstrip().startswith(("{", '"hemisphere'))
+        ]
+        assert [line for line in lines if not re.search(r"[\u4e00-\u9fff]", line)] == []
+        names = [re.match(r"  \S+  ", line)[0] for line in other.splitlines() if re.match(r"  \S+  ", line)]
+        assert all(
+            f"\n{name}" in page for name in names if name.strip() not in views.MACROS and "(" not in name
+        )

@@ -140,23 +140,38 @@ def _name_of(column, names):
     return f"([{listed}])[{parquet.quoted(column)}::INTEGER + 1]"
 
 
-def schema():
-    """The page that documents a recording, generated."""
-    own = "\n".join(f"  {name:<18}{meaning}" for name, meaning in OWN.items())
-    paths = "\n".join(f"  {name:<18}{meaning}" for name, meaning in PATHS.items())
-    lines = [
-        _FORMAT,
-        "view paths: a row for each path\n" + paths,
-        "view events: a row for each event; every event has\n" + own,
+def schema(tell=lambda key, text: text):
+    """The page that documents a recording, generated. tell(key, text): the text in another language."""
+    kinds = [(kind, dict(_lines(kind, tell))) for kind in KINDS]
+    paths, own = (
+        {name: tell(f"view.{name}", text) for name, text in table.items()} for table in (PATHS, OWN)
+    )
+    width = 2 + max(
+        len(name) for table in (paths, own, MACROS, *(lines for _, lines in kinds)) for name in table
+    )
+
+    def listed(head, lines):
+        return "\n".join([head, *(f"  {name:<{width}}{meaning}" for name, meaning in lines.items())])
+
+    heads = {
+        "paths": "view paths: a row for each path",
+        "events": "view events: a row for each event; every event has",
+        "macros": "macros",
+    }
+    said = {name: tell(f"view.{name}_head", text) for name, text in heads.items()}
+    meanings = {kind.name: tell(f"event.{kind.name}", kind.meaning) for kind in KINDS}
+    of_kinds = [listed(f"kind {kind.name}: {meanings[kind.name]}", lines) for kind, lines in kinds]
+    parts = [
+        listed(said["paths"], paths),
+        listed(said["events"], own),
+        *of_kinds,
+        listed(said["macros"], MACROS),
     ]
-    for kind in KINDS:
-        lines.append(f"kind {kind.name}: {kind.meaning}\n" + "\n".join(_lines(kind)))
-    macros = "\n".join(f"  {head:<18}{body}" for head, body in MACROS.items())
-    return "\n\n".join([*lines, "macros\n" + macros])
+    return "\n\n".join([tell("view.format", _FORMAT), *parts])
 
 
-def _lines(kind):
-    """A line for each field that the view has of a kind."""
+def _lines(kind, tell):
+    """(name, meaning) of each field that the view has of a kind."""
     for name, (_, kinds) in fields().items():
         field = kinds.get(kind.name)
         if field is None:
@@ -165,8 +180,10 @@ def _lines(kind):
         shown = f"{name}.{'.'.join(axes)}" if axes else name
         own = any(f.name == name for f in kind.fields)
         unit = f" [{field.unit}]" if field.unit else ""
-        meaning = field.meaning if own else f"of the vertex: {field.meaning}"
-        yield f"  {shown:<18}{meaning}{unit} ({field.domain})"
+        meaning = tell(f"field.{(kind if own else HIT).name}.{name}", field.meaning)
+        if not own:
+            meaning = f"{tell('view.of_vertex', 'of the vertex:')} {meaning}"
+        yield shown, f"{meaning}{unit} ({tell(f'domain.{field.domain}', field.domain)})"
 
 
 _FORMAT = """A recording is a folder:

@@ -42,7 +42,7 @@ def log(
     if file is None and not schema and header is None:
         raise TracerError("give a log, --schema or --header FILE")
     if schema:
-        print(schema_text(), end="")
+        print(schema_text(Speaker().optional), end="")
     if header is not None:
         _write(header, header_file())
     if file is None:

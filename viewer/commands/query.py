@@ -53,7 +53,7 @@ def query(
     if schema:
         from tracer.trace.views import schema as page
 
-        print(page())
+        print(page(Speaker().optional))
         return 0
     if trace is None:
         raise TracerError("query: name a recording's folder, or ask --schema")

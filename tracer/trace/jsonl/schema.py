@@ -1,5 +1,7 @@
 """What a line of a log may hold, made from the one schema of events, and the page that says so."""
 
+from unicodedata import east_asian_width
+
 from tracer.event import Field
 from tracer.events import BOUNCE, CAMERA, END, ESCAPE, HIT, KINDS, LIGHT, ROULETTE
 from tracer.settings import Settings
@@ -74,62 +76,93 @@ def event_fields(kind):
     return {f.name: f for f in (*PLACE, *FLAT, *kind.fields)}
 
 
-def _rows(fields, before=""):
+def _rows(fields, tell, before="", of="log"):
+    """A line for each of some fields; of: what their meanings' keys begin with."""
     for f in fields:
         form = {(): "number", (2,): "[x, y]", (3,): "[x, y, z]"}[f.shape]
         if f.domain == "flag":
             form = "true or false"
         elif f.domain == "choice":
             form = "name"
-        about = f.meaning + (f": {', '.join(f.choices)}" if f.choices else "")
-        domain = "" if f.domain in ("flag", "choice") else f.domain
+        about = tell(f"field.{of}.{f.name}", f.meaning) + (f": {', '.join(f.choices)}" if f.choices else "")
+        domain = "" if f.domain in ("flag", "choice") else tell(f"domain.{f.domain}", f.domain)
         unit = f" [{f.unit}]" if f.unit else ""
-        yield f"  {before + f.name:<24}{form:<15}{domain:<14}{about}{unit}"
+        columns = _padded(tell(f"form.{form}", form), 15) + _padded(domain, 14)
+        yield f"  {before + f.name:<24}{columns}{about}{unit}"
 
 
-def schema_text():
-    """The page that documents the format, made from the declarations of events and settings."""
+def _padded(text, width):
+    """A text with spaces up to a width in cells, of which a Chinese character takes two."""
+    used = sum(2 if east_asian_width(character) in "WF" else 1 for character in text)
+    return text + " " * (width - used)
+
+
+def schema_text(tell=lambda key, text: text):
+    """The page that documents the format, made from the declarations of events and settings. tell(key, text):
+    the text in another language."""
+    said = {name: tell(f"log_page.{name}", text) for name, text in _PROSE.items()}
     lines = [
-        f"castray's log format, version {VERSION}: JSON Lines, UTF-8, one object a line, at most 1 MB each.",
+        said["head"].format(version=VERSION),
         "",
-        "The first line is the header, e.g.",
+        said["header"],
         '  {"castray": 1, "tracer": "mine", "width": 784, "height": 784, "spp": 16, "integrator": "direct",',
-        '   "hemisphere": "uniform", "roulette": 0.8, "light_sampling": "area"}   (on one line)',
+        '   "hemisphere": "uniform", "roulette": 0.8, "light_sampling": "area"}   ' + said["one_line"],
         "",
-        *(f"  {name:<16}{about}" for name, about in _TOLD.items()),
-        *(f"  {name:<16}{_about(name)}" for name in OPTIONS),
+        *(f"  {name:<16}{tell(f'log_page.{name}_is', about)}" for name, about in _TOLD.items()),
+        *(f"  {name:<16}{_about(name, tell)}" for name in OPTIONS),
         "",
-        'Options that are not there are read off the numbers where that can be done (a "probability" of',
-        "roulette that is always the same, densities of 1/(2 pi)), else they are castray's own defaults.",
+        said["options"],
         "",
-        "Every other line is one call of a recursive function, or one event; the two are not mixed. What is",
-        "not known is left out: what cannot be judged without it is then reported as not testable. NaN is",
-        'null or NaN, infinity Infinity, "inf" or "-inf". Vectors are lists. Lengths are in the log\'s unit,',
-        "colours are linear RGB, densities per solid angle unless they are called pdf_area.",
+        said["lines"],
         "",
-        "Conventions: wo leads back to where the path came from, wi to where light may come from, both away",
-        "from the surface. f has no cosine. A log that has it otherwise says so in its header.",
+        said["conventions"],
         "",
-        "A line for every line: whose path it is",
-        *_rows(PLACE),
+        said["place"],
+        *_rows(PLACE, tell),
         "",
-        "ONE CALL OF A RECURSIVE FUNCTION A LINE, in any order. Inner calls have lines of their own (call,",
-        'parent), or stand within as "child": {...}.',
-        *_rows(CALL + TERMS),
+        said["calls"],
+        *_rows(CALL + TERMS, tell),
     ]
     for kind in OF_CALLS:
-        lines += ["", f"  {kind.name}: {kind.meaning}", *_rows(kind.fields, f"{kind.name}.")]
-    lines += ["", 'ONE EVENT A LINE, with "kind", in the order in which they happen in a path.', *_rows(FLAT)]
+        head = f"  {kind.name}: {tell(f'event.{kind.name}', kind.meaning)}"
+        lines += ["", head, *_rows(kind.fields, tell, f"{kind.name}.", kind.name)]
+    lines += ["", said["events"], *_rows(FLAT, tell)]
     for kind in (CAMERA, ESCAPE, END):
-        lines += ["", f'  "kind": "{kind.name}": {kind.meaning}', *_rows(kind.fields)]
+        head = f'  "kind": "{kind.name}": {tell(f"event.{kind.name}", kind.meaning)}'
+        lines += ["", head, *_rows(kind.fields, tell, of=kind.name)]
     names = ", ".join(k.name for k in KINDS if k not in (CAMERA, ESCAPE, END))
-    lines += ["", f"  {names}: the fields above, without the name of the kind before them."]
+    lines += ["", "  " + said["others"].format(names=names)]
     return "\n".join(lines) + "\n"
 
 
-def _about(name):
+_PROSE = {
+    "head": "castray's log format, version {version}: JSON Lines, UTF-8, one object a line, "
+    "at most 1 MB each.",
+    "header": "The first line is the header, e.g.",
+    "one_line": "(on one line)",
+    "options": """\
+Options that are not there are read off the numbers where that can be done (a "probability" of
+roulette that is always the same, densities of 1/(2 pi)), else they are castray's own defaults.""",
+    "lines": """\
+Every other line is one call of a recursive function, or one event; the two are not mixed. What is
+not known is left out: what cannot be judged without it is then reported as not testable. NaN is
+null or NaN, infinity Infinity, "inf" or "-inf". Vectors are lists. Lengths are in the log's unit,
+colours are linear RGB, densities per solid angle unless they are called pdf_area.""",
+    "conventions": """\
+Conventions: wo leads back to where the path came from, wi to where light may come from, both away
+from the surface. f has no cosine. A log that has it otherwise says so in its header.""",
+    "place": "A line for every line: whose path it is",
+    "calls": """\
+ONE CALL OF A RECURSIVE FUNCTION A LINE, in any order. Inner calls have lines of their own (call,
+parent), or stand within as "child": {...}.""",
+    "events": 'ONE EVENT A LINE, with "kind", in the order in which they happen in a path.',
+    "others": "{names}: the fields above, without the name of the kind before them.",
+}
+
+
+def _about(name, tell):
     field = Settings.__dataclass_fields__[name]
     choices = field.metadata["choices"]
     if name == "sampler":
         choices = ("independent", "low-discrepancy")
-    return field.metadata["help"] + (f": {', '.join(choices)}" if choices else "")
+    return tell(f"setting.{name}", field.metadata["help"]) + (f": {', '.join(choices)}" if choices else "")
