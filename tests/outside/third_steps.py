@@ -7,7 +7,7 @@ import numpy as np
 from lessons.zoo.light import behind_too
 from outside.mistake import Mistake
 from outside.steps import diagnosed
-from tracer.frame import dot
+from tracer.frame import dot, normalize
 from tracer.integrator import steps
 
 
@@ -48,6 +48,28 @@ def density_without_sign(scene, hit, wo, wi):
 def choice_again(scene, hit, u):
     """The number that chooses the lamp is the point's first coordinate, too."""
     return scene.sample_light(hit.p, np.stack((u[0], u[0], u[2])))
+
+
+ROUGH = 0.3  # of the rough plate
+
+
+def whole_disk(scene, hit, wo, u):
+    """Visible normals from the whole disk, whose far half is not pressed together: some face away."""
+    sample = steps.bounce(scene, hit, wo, u)
+    v = normalize(np.stack((ROUGH * wo[0], ROUGH * wo[1], wo[2])))
+    across = normalize(np.stack((-v[1], v[0], np.full_like(v[0], 1e-12))))
+    other = np.cross(v, across, axis=0)
+    r, phi = np.sqrt(u[1]), 2.0 * np.pi * u[2]
+    m = r * np.cos(phi) * across + r * np.sin(phi) * other + np.sqrt(1.0 - r * r) * v
+    m = normalize(np.stack((ROUGH * m[0], ROUGH * m[1], np.maximum(m[2], 1e-6))))
+    wi = (2.0 * dot(wo, m) * m - wo).astype(wo.dtype)
+    f, pdf = (getattr(scene.bsdf, what)(hit.bsdf, wo, wi, hit.texture) for what in ("eval", "pdf"))
+    rough = hit.bsdf == scene.bsdf_names.index("rough")
+    return sample._replace(
+        wi=np.where(rough, wi, sample.wi),
+        f=np.where(rough, f, sample.f),
+        pdf=np.where(rough, pdf, sample.pdf),
+    )
 
 
 def _of(id, words, laws, scene, settings, fair=(), **changes):
@@ -92,5 +114,13 @@ MISTAKES = (
         _BY_AREA,
         ("D17",),
         light_point=choice_again,
+    ),
+    _of(
+        "whole-disk",
+        "visible normals from the whole disk, whose far half is not pressed together",
+        ("directions-beside",),
+        "plates",
+        {"width": 64, "height": 64},
+        bounce=whole_disk,
     ),
 )

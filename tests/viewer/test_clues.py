@@ -62,7 +62,7 @@ COUNTED = (
     "paths have 1.2 times as many vertices as they should",
     "first coordinate of points on triangle lamps", "points on sphere lamps",
     "places on the film lie -0.25 pixels beside the middle of theirs in x",
-    "the picture is stretched by 1.03 in y",
+    "how often directions from gold lead on", "the picture is stretched by 1.03 in y",
     "second coordinate of points on each of the quad lamps",
     "how often each face of a lamp is chosen", "number 1 for light and number 2 for bsdf",
     "number 2 for bsdf at neighbouring rows of pixels", "numbers 2 and 3 for roulette",

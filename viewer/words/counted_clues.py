@@ -11,6 +11,7 @@ _PIECES = (
     ("first coordinate of points on each of the {called} lamps", "每盏{called}灯上的点的第一个坐标"),
     ("second coordinate of points on each of the {called} lamps", "每盏{called}灯上的点的第二个坐标"),
     ("places on the film lie {off} pixels beside the middle of theirs in {axis}", "胶片上的位置在 {axis} 方向偏离像素中心 {off} 像素"),
+    ("how often directions from {name} lead on", "{name} 的方向能让路径继续的频率"),
     ("the picture is stretched by {times} in {axis}", "图像在 {axis} 方向被拉伸 {times} 倍"),
     ("points on {called} lamps", "{called}灯上的点"),
     ("how often each face of a lamp is chosen", "灯的各个面被选中的频率"),

@@ -3,9 +3,12 @@
 import numpy as np
 
 from tracer.bsdf import Diffuse
-from tracer.doctor.statistics.cells import FEWEST, Cell, same, share, square, uniform
+from tracer.doctor.statistics.cells import FEWEST, Cell, balanced, same, share, square, uniform
 from tracer.doctor.statistics.lamps import _single
+from tracer.doctor.statistics.numbers import NEVER_ABSORB
+from tracer.events import END_REASONS
 
+_WANTING = [END_REASONS.index(reason) for reason in ("absorbed", "invalid")]
 _SEED = 20250  # of the reference's own numbers
 
 
@@ -56,22 +59,54 @@ def others(evidence):
         rows = _single(evidence, "bounce", np.flatnonzero((which == number) & good))
         if rows.size >= FEWEST:
             yield from _beside(evidence, rows, number, names[number])
+        if scene.has_smooth_normals or not isinstance(materials[number], NEVER_ABSORB):
+            yield from _led_on(evidence, number, names[number])
 
 
-def _beside(evidence, rows, number, name):
+def _reference(evidence, vertex, number, seed):
+    """What the scene's own sampler does at vertices with fresh numbers: its samples, whether they carry
+    anything (N,), the frame and the local wo."""
     scene = evidence.scene
-    vertex = {k: evidence.at_vertex("bounce", k)[..., rows] for k in ("n", "p", "wo", "primitive")}
     frame = scene.frame(vertex["n"], vertex["p"], vertex["primitive"])
     wo = frame.to_local(vertex["wo"])
-    u = np.random.Generator(np.random.PCG64([_SEED, int(number)])).random((3, rows.size))
+    u = np.random.Generator(np.random.PCG64([_SEED, int(number), *seed])).random((3, wo.shape[1]))
     texture = scene.painted(vertex["p"], vertex["primitive"])
-    sample = scene.bsdf.sample(np.full(rows.size, number), wo, u, texture)
-    wi = frame.to_local(evidence("bounce.wi")[:, rows])
+    sample = scene.bsdf.sample(np.full(wo.shape[1], number), wo, u, texture)
     carries = (sample.pdf > 0.0) & (sample.f > 0.0).any(axis=0)
     if scene.has_smooth_normals:
         ng = evidence.brute.normals(vertex["p"], vertex["primitive"])
         world = frame.to_world(sample.wi)
         carries &= ((vertex["n"] * world).sum(axis=0) * (ng * world).sum(axis=0)) > 0.0
+    return sample, carries, frame, wo
+
+
+def _led_on(evidence, number, name):
+    """How often a direction leads on, and how often the path ends for want of one: facets send some into the
+    surface. Where an end's reason is the tracer's own word alone."""
+    if not evidence.has("end.reason") or "end.reason" in evidence.trace.rebuilt:
+        return
+    hits = np.arange(evidence.count("hit"))
+    bounce, end = evidence.after("hit", "bounce"), evidence.after("hit", "end")
+    on = (bounce >= 0) & (evidence.before("bounce", "hit").take(bounce, mode="clip") == hits)
+    over = (end >= 0) & (evidence.before("end", "hit").take(end, mode="clip") == hits) & ~on
+    over &= np.isin(evidence("end.reason").take(end, mode="clip"), _WANTING)
+    here = evidence.scene.bsdf_of.take(evidence("hit.primitive")) == number
+    good = evidence.is_unit("hit.n") & evidence.is_unit("hit.wo")
+    if evidence.has("hit.beta"):
+        good &= (evidence("hit.beta") > 0.0).any(axis=0)
+    rows = _single(evidence, "hit", np.flatnonzero((on | over) & here & good))
+    if rows.size < FEWEST:
+        return
+    vertex = {k: evidence(f"hit.{k}")[..., rows] for k in ("n", "p", "wo", "primitive")}
+    _, carries, _, wo = _reference(evidence, vertex, number, (1,))
+    differ = (on[rows].astype(float) - carries) * (np.abs(wo[2]) > 64.0 * evidence.off_unit)
+    yield Cell(balanced(differ), f"how often directions from {name} lead on", "hit", rows)
+
+
+def _beside(evidence, rows, number, name):
+    vertex = {k: evidence.at_vertex("bounce", k)[..., rows] for k in ("n", "p", "wo", "primitive")}
+    sample, carries, frame, wo = _reference(evidence, vertex, number, ())
+    wi = frame.to_local(evidence("bounce.wi")[:, rows])
     lobe, delta = evidence("bounce.lobe")[rows], evidence("bounce.delta")[rows].astype(bool)
     # A vertex and its reference change places with equal chance: only pairs that differ tell something.
     ours, theirs = 2 * lobe + delta, 2 * sample.lobe.astype(int) + sample.delta

@@ -8,7 +8,7 @@ from tracer.bsdf import Conductor, Dielectric, Diffuse, ThinDielectric
 from tracer.doctor.rule import NotRecordedError
 from tracer.doctor.statistics.cells import FEWEST, Cell, share, square, uniform, unrelated
 
-_NEVER_ABSORB = (Diffuse, Conductor, Dielectric, ThinDielectric)
+NEVER_ABSORB = (Diffuse, Conductor, Dielectric, ThinDielectric)
 _BITS = 1e-7  # two numbers are equal by chance less often than this
 _USES = {"light": "light.u", "bsdf": "bounce.u", "roulette": "roulette.u"}
 
@@ -36,7 +36,7 @@ def drawn(evidence, use):
 def _always_recorded(evidence):
     """Which BOUNCEs are recorded whatever their numbers are."""
     scene = evidence.scene
-    plain = np.array([isinstance(m, _NEVER_ABSORB) for m in scene.definition.bsdfs.values()])
+    plain = np.array([isinstance(m, NEVER_ABSORB) for m in scene.definition.bsdfs.values()])
     smooth = np.array([getattr(shape, "normals", None) is not None for shape in scene.shapes])
     primitive = evidence.at_vertex("bounce", "primitive")
     even = plain.take(evidence.materials("bounce")) & ~smooth.take(scene.shape_of.take(primitive))
