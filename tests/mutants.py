@@ -169,6 +169,7 @@ MUTANTS = {
     "emission-term": ("room", _scaled("hit.contribution", 1.001, _lit)),
     "environment-term": ("sky", _scaled("escape.contribution", 1.001)),
     "light-term": ("room", _scaled("light.contribution", 1.001)),
+    "light-nothing": ("room", lambda t: changed(t, "light.contribution", lambda L: L + L.dtype.type(0.1))),
     "absorbed": ("room", lambda t: changed(t, "end.reason", lambda reason: np.full_like(reason, 1))),
     "end": ("room", lambda t: changed(t, "end.reason", lambda reason: np.full_like(reason, 3))),
     "ledger": ("room", lambda t: changed(t, "path.radiance", lambda L: L * L.dtype.type(1.001))),

@@ -102,7 +102,7 @@ MISTAKES = (
     _of(
         "panels-both-sides",
         "light samples take the back of a lamp, too",
-        ("light-term", "light-cos", "light-visible"),
+        ("light-term", "light-cos", "light-visible", "light-nothing"),
         {"cos_l = -dot(light.n, wi);": "cos_l = std::fabs(dot(light.n, wi));"},
         NO_PDF,
         ("E06",),

@@ -49,6 +49,7 @@ def test_a_right_program_may_choose_lamps_in_its_own_way_and_log_what_it_does_no
         "weekend child-twice", "weekend shadow-from-zero", "weekend camera-not-unit",
         "weekend sum-by-roulette", "hall next-lamp", "hall bulbs-inside-out", "hall choice-again",
         "hall weight-without-choice", "hall weight-not-used", "weekend width-less-one",
+        "hall panels-both-sides",
     ],
 )  # fmt: skip
 def test_a_mistake_of_which_little_is_logged_breaks_its_law_and_gets_no_wrong_name(id):

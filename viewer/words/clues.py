@@ -82,6 +82,7 @@ _PIECES = (
     ),
     ("recorded is the weight of the other technique", "记录的是另一种技术的权重"),
     ("the lamp shines from its back", "灯从背面发光"),
+    ("light arrives from below the surface", "光从表面之下到来"),
     (
         "the weights of this light found both ways do not sum to 1, all over",
         "这束光两种找法的权重之和处处都不是 1",

@@ -33,6 +33,7 @@ WORDS = {
         "formula.absorbed": "n . wi > 0、n . wo > 0 时 f > 0、pdf > 0",
         "formula.end": "凡终止都有补偿",
         "formula.ledger": "L = Σ contribution",
+        "formula.light-nothing": "cos_light < 0 或 f = 0 时 contribution = 0",
         "formula.film": "E[胶片位置 - 像素] = 1/2",
         "formula.lamp-choice": "N(灯) = n P(灯)",
         "formula.lamp-points": "p(q) = 1 / A，或 p(wi) = 1 / Omega",

@@ -136,6 +136,8 @@ WORDS = {
         "law.numbers-uniform": "随机数均匀填满 [0, 1)，同一用途的随机数均匀填满正方形和立方体。",
         "rule.numbers-independent": "随机数相互独立",
         "law.numbers-independent": "相邻像素、样本、深度和用途的随机数互不相关。",
+        "rule.light-nothing": "灯的背面和表面之下不带来光",
+        "law.light-nothing": "无论权重多少，光源样本从灯的背面或表面之下不带来任何光。",
         "rule.film": "样本均匀分布在像素中",
         "law.film": "胶片上的位置围绕像素的中心，最后一列与第一列一样。",
         "rule.lamp-choice": "灯被选中的频率符合要求",

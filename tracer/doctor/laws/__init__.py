@@ -43,7 +43,7 @@ _ORDER = (
     "emission-weight", "environment-weight", "light-weight",
     "roulette-probability", "roulette-played", "roulette-survival", "roulette-weight", "dead",
     "throughput", "throughput-on-arrival", "bounce-before", "light-throughput",
-    "emission-term", "environment-term", "light-term",
+    "emission-term", "environment-term", "light-term", "light-nothing",
     "absorbed", "end", "ledger",
     "domain", "finite",
 )  # fmt: skip

@@ -80,6 +80,28 @@ def throughput(evidence):
     )
 
 
+def from_nowhere(evidence):
+    """I5: nothing arrives from behind the lamp, nor where the surface reflects nothing, whatever weights and
+    densities are."""
+    rows = np.flatnonzero(evidence("light.primitive") >= 0)
+    if not rows.size:
+        return None
+    p, n, wo, surface = (evidence.at_vertex("light", k)[..., rows] for k in ("p", "n", "wo", "primitive"))
+    q, lamp = evidence("light.q")[:, rows], evidence("light.primitive")[rows]
+    gap, room = q - p, 16.0 * evidence.off_point
+    behind = dot(evidence.brute.normals(q, lamp), -gap)
+    hidden, near = evidence.lamps.hidden(p, lamp, room)
+    f = evidence.asked(p, n, wo, gap / length(gap), surface, "eval")
+    above = np.minimum(*(np.abs(dot(normal, gap)) for normal in (n, evidence.brute.normals(p, surface))))
+    back = ((behind < -room) | hidden) & ~near
+    dark = (f == 0.0).all(axis=0) & (above > room) & evidence.sound("light")[rows]
+    recorded = evidence("light.contribution")[:, rows]
+    bad = (back | dark) & (recorded != 0.0).any(axis=0)
+    none = np.zeros(bad.shape, bool)
+    right = np.zeros_like(recorded)
+    return Outcome("light", rows, bad, none, recorded, right, "contribution", facts={"back": back & ~dark})
+
+
 _PARTS = ("beta", "f", "Le", "cos", "w", "pdf")
 
 
@@ -207,5 +229,13 @@ RULES = (
         "contribution = beta f Le cos w V / pdf",
         ("light.contribution", *(f"light.{name}" for name in _PARTS), "light.visible"),
         term,
+    ),
+    Rule(
+        "light-nothing",
+        "Nothing arrives from a lamp's back, nor from below",
+        "Whatever its weight, a light sample brings nothing from behind the lamp or from below the surface.",
+        "contribution = 0 for cos_light < 0 or f = 0",
+        ("light.contribution", "light.q", "light.primitive", *_VERTEX),
+        from_nowhere,
     ),
 )

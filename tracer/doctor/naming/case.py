@@ -42,6 +42,8 @@ class Case:
         outcome = self.outcome
         sort = _sorts(self.evidence, self.kind, outcome.rows)
         fine = ~outcome.wrong & ~outcome.unsure & np.isin(sort, sort[outcome.wrong])
+        if f"{self.kind}.beta" in self.evidence.trace.rebuilt:
+            fine &= _came_back(self.evidence, self.kind)[outcome.rows]
         return Case(self.evidence, outcome, np.flatnonzero(fine), guess) if fine.any() else None
 
     @property
@@ -83,6 +85,18 @@ class Case:
     def times(self, factor):
         """Whether nearly all recorded numbers are the right ones times a factor."""
         return self.is_(self.right * factor)
+
+
+def _came_back(evidence, kind):
+    """Whether any light came back after each event (E,): of the rest a log of calls says no throughput."""
+    last = np.full(evidence.trace.size, -1)
+    for giving in ("hit", "light", "escape"):
+        if evidence.has(f"{giving}.contribution"):
+            table = evidence.trace.tables[giving]
+            some = (evidence(f"{giving}.contribution") != 0.0).any(axis=0)
+            np.maximum.at(last, table.path[some], table.step[some])
+    table = evidence.trace.tables[kind]
+    return table.step < last[table.path]
 
 
 def _sorts(evidence, kind, rows):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracer.doctor.laws.emission import mis
-from tracer.doctor.naming.case import SHARE, first
+from tracer.doctor.naming.case import SHARE, Clue, first
 from tracer.doctor.naming.reflection import exchanged, given_to, local, wrong_f
 from tracer.doctor.naming.visibility import visible
 from tracer.doctor.naming.weights import of_known, wrong_weights
@@ -113,6 +113,26 @@ def pick(case):
     """The probability of a lamp."""
     one = np.ones_like(case.right)
     return first(case, [("D14", "recorded 1: the lamp's probability is left out", one)])
+
+
+def from_nowhere(case):
+    """Light that arrives from where none can."""
+    outcome, evidence = case.outcome, case.evidence
+    back = outcome.facts["back"]
+    if back[outcome.wrong].mean() < SHARE:
+        return Clue(None, "light arrives from below the surface") if not back[outcome.wrong].any() else None
+    rows = outcome.rows[back]
+    p, q = evidence.at_vertex("light", "p")[:, rows], evidence("light.q")[:, rows]
+    source, lamp = evidence.at_vertex("light", "primitive")[rows], evidence("light.primitive")[rows]
+    _, maybe = evidence.brute.between(p, q, source, lamp, 4.0 * evidence.off_vertex)
+    some = outcome.recorded[:, back][
+        :, ~(maybe | evidence.brute.is_sphere.take(lamp))
+    ]  # a ball hides its back
+    if some.size and (some > 0.0).any(axis=0).mean() >= SHARE:
+        return Clue("E06", "the lamp shines from its back")
+    if some.size and (some < 0.0).any(axis=0).mean() >= SHARE:
+        return Clue("D08", "recorded < 0, and only behind the lamp: its cosine is not clamped")
+    return None
 
 
 def radiance(case):
@@ -245,6 +265,7 @@ def _apart(case):
 
 NAMES = {
     "light-term": term,
+    "light-nothing": from_nowhere,
     "light-visible": visible,
     "light-pdf": density,
     "light-pick": pick,
