@@ -7,6 +7,7 @@ import shlex
 from html.parser import HTMLParser
 
 import pytest
+from logs import INNER, OUTER, write_log
 from suite import castray
 
 import tracer
@@ -217,3 +218,21 @@ def test_bad_input_is_one_line_and_code_2(folder, tmp_path, words):
 @pytest.mark.parametrize("file", ["mine.py", "my homework (2).py", "光线 追踪.jsonl", "it's.py"])
 def test_a_command_that_is_printed_can_be_typed_whatever_the_file_is_called(file):
     assert shlex.split(of_scene(file, "cornell")) == [file, "--scene", "cornell"]
+
+
+@pytest.mark.browser
+def test_the_page_copies_the_command_of_a_finding(browser, tmp_path):
+    log = write_log(tmp_path / "my log.jsonl", OUTER | {"direct": [0.9, 0.9, 0.9]}, INNER)
+    found = row_of(log, log.name, "cornell", FEW, 60.0)
+    (tmp_path / "t.html").write_text(report.as_html([found], tmp_path, "cornell", SAY), encoding="utf-8")
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto((tmp_path / "t.html").as_uri())
+    section = page.locator(".finding").first
+    section.get_by_role("button", name="copy").click()
+    assert page.evaluate("getSelection().toString()") == found.found.command
+    assert (
+        found.found.command.startswith("castray view ")
+        and section.locator("code").inner_text() == found.found.command
+    )
+    context.close()
