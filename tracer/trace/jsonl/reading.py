@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracer.events import KINDS
-from tracer.settings import ANY_DEPTH, TracerError
+from tracer.settings import TracerError
 from tracer.trace.jsonl import (
     calls,
     conventions,
@@ -17,12 +17,12 @@ from tracer.trace.jsonl import (
     peek,
     places,
     told,
+    undeclared,
 )
 from tracer.trace.jsonl.compact import compact
 from tracer.trace.jsonl.content import Read
 from tracer.trace.trace import Table, Trace
 
-_UNIFORM = 0.5 / np.pi
 _PLACE = ("path", "x", "y", "sample", "step", "depth")
 
 
@@ -48,9 +48,9 @@ def read_log(path, scene=None, options=None):
     read = lines.read(path, _tables(scene))
     if options:
         read.header.options.update(options)
-    read_off = _read_off(read)
+    read_off = undeclared.read_off(read)
     settings = header.settings_of(read.header, read_off)
-    free = _free(read, read_off)
+    free = undeclared.free(read, read_off)
     settings, without = _without_lights(read, settings)
     notes = _notes(read) + without
     if scene is None:
@@ -96,48 +96,6 @@ def _notes(read):
     if read.cut:
         notes.append("the last line ends in its middle: it is left out")
     return notes
-
-
-def _column(read, kind, name):
-    for key, full in ((kind, name), (None, f"{kind}.{name}")):
-        if key in read.columns and full in read.columns[key].values:
-            found = read.columns[key]
-            return found.values[full][..., found.given[full]].astype(np.float64)
-    return np.empty(0)
-
-
-def _read_off(read):
-    """Settings that the numbers show."""
-    found: dict[str, object] = {}
-    q = _column(read, "roulette", "probability")
-    q = q[np.isfinite(q)]
-    if q.size and 0.0 < q[0] <= 1.0 and np.ptp(q) <= 4.0 * read.header.eps:
-        found["roulette"] = f"{q[0]:.6g}"
-    elif not q.size and read.header.options.get("roulette") is None:
-        found |= {"roulette": "off", "max_depth": ANY_DEPTH}
-    pdf = _column(read, "bounce", "pdf")
-    if pdf.size and np.mean(np.abs(pdf - _UNIFORM) <= 1e-4) > 0.9:
-        found["hemisphere"] = "uniform"
-    if _column(read, "light", "pdf_area").size and not _column(read, "light", "pdf").size:
-        found["light_sampling"] = "area"
-    if "strategy" in read.header.options or _weighs(read):
-        found["integrator"] = "path"
-    return {name: value for name, value in found.items() if name not in read.header.options}
-
-
-def _weighs(read):
-    """Whether some light is weighted: found both by light samples and by bounces."""
-    w = np.concatenate([_column(read, kind, "w") for kind in ("hit", "light")])
-    return bool(((w > 0.0) & (w < 1.0)).any())
-
-
-def _free(read, read_off):
-    """Settings that are neither declared nor one number: any lawful one is in order, vertex by vertex. "size"
-    is the picture's."""
-    chosen = _column(read, "roulette", "probability").size > 0
-    declared = "roulette" in read_off or read.header.options.get("roulette") is not None
-    sized = all(read.header.options.get(name) is not None for name in ("width", "height"))
-    return frozenset(({"roulette"} if chosen and not declared else set()) | (set() if sized else {"size"}))
 
 
 def _of_calls(read, scene, exact, settings, read_off):
