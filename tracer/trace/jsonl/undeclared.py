@@ -27,8 +27,8 @@ def read_off(read):
 
 
 def free(read, shown):
-    """Names of settings that are neither declared nor one number: any lawful one is in order, vertex by vertex.
-    "size" is the picture's. shown: what read_off found."""
+    """Names of settings that are neither declared nor one number: any lawful one is in order, vertex by
+    vertex. "size" is the picture's. shown: what read_off found."""
     chosen = _column(read, "roulette", "probability").size > 0
     declared = "roulette" in shown or read.header.options.get("roulette") is not None
     sized = all(read.header.options.get(name) is not None for name in ("width", "height"))
