@@ -69,10 +69,12 @@ def _hit(v, scene, say):
 
 
 def light_outcome(v):
-    """What became of a light sample: behind, below, absorbed, blocked, denied (it counts as
+    """What became of a light sample: undefined, behind, below, absorbed, blocked, denied (it counts as
     hidden, though nothing is in the way), lit or nothing; unsaid by a log that has what it brings alone."""
     if v["light"] < 0 and not np.all(np.isfinite(v["q"])):
         return "unsaid"
+    if no_number(v):
+        return "undefined"
     if v["cos_light"] <= 0:
         return "behind"
     if not np.any(v["f"] > 0):
@@ -82,6 +84,11 @@ def light_outcome(v):
     if not v["visible"]:
         return "blocked" if v["blocker"] >= 0 else "denied"
     return "lit" if np.any(v["contribution"] > 0) else "nothing"
+
+
+def no_number(v):
+    """Whether what a light sample brings is NaN, and what it is made of, too; a log may lack one of them."""
+    return bool(np.isnan(v["contribution"]).any() and (np.isnan(v["f"]).any() or np.isnan(v["pdf"])))
 
 
 def _light(v, scene, say):

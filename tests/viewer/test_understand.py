@@ -1,6 +1,7 @@
 """Why a pixel is what it is: its parts add up, and each factor names the event that made it."""
 
 import json
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -11,6 +12,7 @@ from suite import castray
 import tracer
 from lessons import zoo
 from lessons.zoo import planted
+from viewer.caption import caption, light_outcome, why_dead
 from viewer.equation import origin
 from viewer.numerals import luminance
 from viewer.understanding import lens, microscope
@@ -79,6 +81,22 @@ def test_what_is_no_number_has_a_bar_that_leads_to_it():
     record.paths[path].radiance[:] = 0.0
     bar = next(bar for bar in waterfall(record) if bar.kind == INVALID)
     assert bar.place == (path, event.step) and bar.events == 1 and not any(bar.value)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_no_number_is_called_nan_and_not_light_that_the_surface_does_not_reflect(language):
+    say, scene = Speaker(language), tracer.load("materials")
+    settings, seen = tracer.Settings(width=48, height=32, spp=4, bug="S08"), 0
+    for x, y in ((0, 0), (5, 20), (10, 0)):
+        record = tracer.inspect(scene, settings, x, y, steps=planted(settings))
+        for path in record.paths:
+            for event in path.events:
+                if event.kind.name == "light" and np.isnan(event.values["contribution"]).any():
+                    seen += 1
+                    assert light_outcome(event.values) == "undefined" and "NaN" in caption(event, scene, say)
+        for sentence in (*(r.sentence(say) for r in why(record, scene)), why_dead(path, scene, say)):
+            assert not re.search(r"\bnan\b", sentence)
+    assert seen >= 3
 
 
 def test_a_factor_was_made_by_the_event_that_it_names():

@@ -21,7 +21,7 @@ TEMPLATE = """
   <table class="data sums"><tbody>
     <tr v-for="row in ledger.terms" :key="row.step" class="link" :class="{now: row.step === event_index}"
       @click="trigger('event', [row.step])"><th scope="row"><button class="plain">{{ row.name }}</button></th>
-      <td class="number"><i class="swatch" :style="{background: row.colour}"></i>{{ row.value }}</td></tr>
+      <td class="number"><i v-if="row.colour" class="swatch" :style="{background: row.colour}"></i>{{ row.value }}</td></tr>
     <tr v-if="!ledger.terms.length"><td colspan="2" class="dim">{{ w.ledger_nothing }}</td></tr>
     <tr class="total"><th scope="row">{{ w.ledger_sum }}</th>
       <td class="number" data-testid="ledger-path">{{ ledger.radiance }}</td></tr>
@@ -87,7 +87,8 @@ def _drawn(bars, say):
 def _term(event, say):
     value = event.values["contribution"]
     name = say(f"ledger.{event.kind.name}", depth=event.depth)
-    return {"step": event.step, "name": name, "value": several(value), "colour": css(value)}
+    colour = css(value) if np.isfinite(value).all() else ""
+    return {"step": event.step, "name": name, "value": several(value), "colour": colour}
 
 
 PANEL = Panel("ledger", "tab", "path", 30, TEMPLATE, show)

@@ -13,7 +13,7 @@
         const { box, dots, g } = fitted(canvas.value), n = props.bars.length, most = Math.max(...props.bars, 1e-30);
         const step = box.width / n, gap = step > 5 ? 1.5 : 0, room = box.height - 12;
         g.setTransform(dots, 0, 0, dots, 0, 0);
-        g.clearRect(0, 0, box.width, box.height);
+        g.clearRect(0, 0, box.width + 1, box.height + 1); // its height may be a broken number
         props.bars.forEach((bar, k) => {
           const left = k * step, tall = bar > 0 ? Math.max(1.5, (bar / most) * room) : 0;
           if (k === props.selected) { g.fillStyle = "#3a4354"; g.fillRect(left, 0, Math.max(step, 2), box.height); }

@@ -53,5 +53,7 @@ class Reason:
 
 
 def spelled(values):
-    """Numbers within a sentence."""
-    return " ".join(f"{v:.5g}" for v in np.ravel(values))
+    """Numbers within a sentence; "NaN" where none of them is one."""
+    if np.isnan(values).all():
+        return "NaN"
+    return " ".join("NaN" if np.isnan(v) else short(v) for v in np.ravel(values))

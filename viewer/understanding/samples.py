@@ -3,7 +3,7 @@
 import numpy as np
 
 from tracer.frame import dot
-from viewer.caption import named
+from viewer.caption import named, no_number
 from viewer.numerals import luminance
 from viewer.understanding.places import places
 from viewer.understanding.reasons import Reason
@@ -15,8 +15,11 @@ BY |= dict.fromkeys(("light.below", "light.sides", "light.black", "light.dark"),
 
 
 def outcome(sample):
-    """What became of a light sample (a Place), as the words call it; "" where it brings light."""
+    """What became of a light sample (a Place), as the words call it; "" where it brings light, or NaN, of
+    which other reasons speak."""
     v, hit = sample.event.values, sample.hit
+    if no_number(v):
+        return ""
     if np.any(v["contribution"] < 0):
         return "light.negative"
     if np.any(v["contribution"] > 0):
