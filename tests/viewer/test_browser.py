@@ -342,6 +342,22 @@ def test_on_a_low_window_the_tabs_reach_down_to_its_end(page):
     assert page.locator(".events .what").first.bounding_box()["width"] > 300
 
 
+LEFT = ".left > :not(.picture), .picture > :not(.photo), .photo > canvas, .photo > .hover"
+APART = f"""() => [...document.querySelectorAll("{LEFT}")].filter((e) => e.offsetHeight)
+  .map((e) => e.getBoundingClientRect()).sort((a, b) => a.top - b.top)
+  .every((box, k, all) => !k || box.top >= all[k - 1].bottom - 1)"""
+
+
+def test_nothing_on_the_left_lies_over_another_however_much_is_told_there(page):
+    page.set_viewport_size({"width": 1280, "height": 720})
+    for words in (0, 60, 200):
+        told = "document.querySelector('.left').prepend(document.createElement('p')); "
+        page.evaluate(told + f"document.querySelector('.left > p').textContent = 'long '.repeat({words})")
+        page.wait_for_timeout(200)
+        assert page.evaluate(APART)
+        assert page.locator(".photo > canvas").bounding_box()["height"] >= 96
+
+
 def test_a_word_in_the_3d_view_stands_only_where_what_it_names_is_seen(page):
     fill(page, 30, 45)
     seen = page.locator(".stage .label:not([hidden])")

@@ -148,7 +148,8 @@ def _show(studies, output, json):
     if output is not None:
         from viewer import plot_bench, plots
 
-        plots.write(plot_bench.figure(studies), output)
+        with plots.lettered() as say:
+            plots.write(plot_bench.figure(studies, say), output)
     if json:
         print_json(bench_words.as_dict(studies, output))
     else:

@@ -44,7 +44,8 @@ def bsdf(
         plots.check_path(output)
     document, material = report(name, split(parameters, words))
     if output is not None:
-        plots.write(plot_bsdf.figure(document, material), output)
+        with plots.lettered() as say:
+            plots.write(plot_bsdf.figure(document, material, say), output)
         document["out"] = str(output)
     if json:
         print_json(document)
