@@ -9,18 +9,18 @@ samples that bring nothing no factor is seen; so there are two traces: one with 
 how they were chosen and whether they are seen, and one with those that bring something, to judge what.
 """
 
-from collections import Counter, defaultdict
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 
 from tracer.events import BOUNCE, CAMERA, END, END_REASONS, ESCAPE, HIT, KINDS, LIGHT, ROULETTE
+from tracer.learner.terms import SURE, Terms, cosine, used_or_right
 from tracer.learner.value import Vector, dot
 from tracer.trace.trace import Table, Trace
 
 _AREA = LIGHT.field("technique").choices.index("area")
 _REASON = END_REASONS.index
-_SURE = 1e-6  # how far vectors may be apart that are meant to be one
 
 
 class Builder:
@@ -53,7 +53,7 @@ class Builder:
 
         pdf: density of the bounce that led to it.
         """
-        terms = _Terms(call)
+        terms = Terms(call)
         if call.hit is None:
             d, brought = call.ray.direction.plain, beta * call.returned.value
             self._put(ESCAPE, call.depth, d=d, Le=np.zeros(3), w=0.0, contribution=brought)
@@ -71,7 +71,7 @@ class Builder:
         after = beta * terms.factor(child)
         right = self._bounce(call, child, terms.of_child(child), beta)
         q = roll.of["against"] if roll is not None else 1.0
-        forgotten = np.allclose(after, right, rtol=_SURE, atol=0.0)  # 1/q, but nothing else
+        forgotten = np.allclose(after, right, rtol=SURE, atol=0.0)  # 1/q, but nothing else
         bounce = self._rows[BOUNCE.name][-1][-1]
         bounce["beta"] = after if forgotten else after * q
         if roll is not None:
@@ -128,8 +128,8 @@ class Builder:
             distance=distance,
             Le=sample.emission.value * (cos_light > 0.0),
             pdf=pdf_area * distance * distance / cos_light if cos_light > 0.0 else 0.0,
-            f=_used_or_right(used, "f", lambda: _f(call, Vector(*wi))),
-            cos=_or(_cosine(used, call.hit.n), abs(cos)),
+            f=used_or_right(used, "f", lambda: _f(call, Vector(*wi))),
+            cos=_or(cosine(used, call.hit.n), abs(cos)),
             w=float(value.any() or cos > 0.0),  # 0 where nothing can arrive
             beta=beta,
             visible=bool(value.any()),
@@ -139,11 +139,11 @@ class Builder:
     def _bounce(self, call, child, used, beta):
         """The BOUNCE to the inner call, its `beta` still to come; what that would be by f, cos and pdf."""
         wi = child.ray.direction
-        f = _used_or_right(used, "f", lambda: _f(call, wi))
-        pdf = _used_or_right(
+        f = used_or_right(used, "f", lambda: _f(call, wi))
+        pdf = used_or_right(
             used, "pdf", lambda: call.hit.material.pdf(wi, -call.ray.direction, call.hit.n).value
         )
-        cos = _or(_cosine(used, call.hit.n), abs(dot(wi, call.hit.n).value))
+        cos = _or(cosine(used, call.hit.n), abs(dot(wi, call.hit.n).value))
         self._put(
             BOUNCE, call.depth, wi=wi.plain, f=f, pdf=pdf, cos=cos, delta=False, beta_before=beta, beta=None
         )
@@ -206,73 +206,11 @@ def counted(traces):
     return tuple(replace(trace, light_samples=samples) for trace in traces)
 
 
-class _Terms:
-    """The terms of what a call returned, by what they carry."""
-
-    def __init__(self, call):
-        self._emission, self._light, self._child = [], defaultdict(list), defaultdict(list)
-        for factor, powers in call.returned.terms:
-            kinds = {leaf.kind: leaf for leaf, power in powers if power > 0}
-            if "child" in kinds:
-                self._child[id(kinds["child"].of["call"])].append((factor, powers))
-            elif "Le" in kinds and "light" in kinds["Le"].of:
-                self._light[id(kinds["Le"].of["light"])].append((factor, powers))
-            else:
-                self._emission.append((factor, powers))
-
-    def emission(self):
-        """What comes from the surface itself, or from nowhere known, (3,)."""
-        return sum((_worth(*term) for term in self._emission), np.zeros(3))
-
-    def of_light(self, sample):
-        """Leaves of a light sample's terms, and what they bring, (3,)."""
-        terms = self._light[id(sample)]
-        leaves = [leaf for _, powers in terms for leaf, _ in powers]
-        return leaves, sum((_worth(*term) for term in terms), np.zeros(3))
-
-    def of_child(self, child):
-        """Leaves of an inner call's terms."""
-        return [leaf for _, powers in self._child[id(child)] for leaf, _ in powers if leaf.kind != "child"]
-
-    def factor(self, child):
-        """What an inner call's colour was multiplied with, (3,)."""
-        terms = self._child[id(child)]
-        return sum((_worth(factor, powers, but="child") for factor, powers in terms), np.zeros(3))
-
-
-def _worth(factor, powers, but=""):
-    """A term's value (3,), without leaves of the kind `but`."""
-    found = np.ones(3) * factor
-    with np.errstate(all="ignore"):
-        for leaf, power in powers:
-            if leaf.kind != but:
-                found = found * np.asarray(leaf.value, np.float64) ** power
-    return found
-
-
-def _only(leaves, kind):
-    """The one leaf of a kind, None where there is none or there are several."""
-    found = {id(leaf): leaf for leaf in leaves if leaf.kind == kind}
-    return next(iter(found.values())) if len(found) == 1 else None
-
-
-def _cosine(leaves, n):
-    """The one dot product with the vertex's normal, None where there is none. Of one with the opposite of
-    it, such as the normal of a lamp above, only the size counts: which sign was meant stands beside it."""
-    found = {}
-    for leaf in leaves:
-        along = [dot(leaf.of[side], n).value for side in ("a", "b")] if leaf.kind == "dot" else []
-        for cos in along:
-            if abs(abs(cos) - 1.0) < _SURE:
-                found[id(leaf)] = leaf.value if cos > 0.0 else abs(leaf.value)
-    return next(iter(found.values())) if len(found) == 1 else None
-
-
 def _length(asked, wi):
     """Length of the direction along wi in which a ray was sent; 1 where none was."""
     for d in (direction.plain for direction in asked):
         size = float(np.linalg.norm(d))
-        if abs(size - 1.0) > _SURE and d @ wi > (1.0 - _SURE) * size:
+        if abs(size - 1.0) > SURE and d @ wi > (1.0 - SURE) * size:
             return size
     return 1.0
 
@@ -292,12 +230,6 @@ def _end_of(call):
 def _f(call, wi):
     """What the BSDF has to be there, (3,)."""
     return call.hit.material.eval(wi, -call.ray.direction, call.hit.n).value
-
-
-def _used_or_right(leaves, kind, right):
-    """The value of the one leaf of a kind; where there is none, what it has to be."""
-    leaf = _only(leaves, kind)
-    return right() if leaf is None else leaf.value
 
 
 def _or(value, other):
