@@ -16,6 +16,7 @@ from viewer.words import Speaker
 
 _RULES = {rule.id: rule for rule in (*LAWS, *statistics.RULES)}
 _WORTH = 0.5  # share of what is off that the nearest mistake explains, to be named
+_ALWAYS = ("hit.p", "light.q", "direct")  # what a log has to say for the laws of light samples
 _LOGGED = 3  # columns that are asked for, of each mistake
 
 
@@ -186,7 +187,8 @@ def beyond(opinion, scene, say):
         (low, low_at), (high, high_at) = worst.low, worst.high
         places = {"low_at": "{}, {}".format(*low_at), "high_at": "{}, {}".format(*high_at)}
         yield say("pic.clue_varies", name=worst.name, low=low, high=high, **places)
-    yield say("pic.log_three", fields=say.listed(*found.log))
+    least = say.listed(*(name for name in _ALWAYS if name not in found.log))
+    yield say("pic.log_three", fields=say.listed(*found.log), least=least)
     pairs = ", ".join(f'"{name}", {name.rpartition(".")[2]}' for name in found.log)
     yield say("pic.log_how", pairs=pairs, scene=shlex.quote(scene))
 
