@@ -86,6 +86,21 @@ def test_a_weight_that_is_almost_1_is_told_where_it_counts_twice():
     assert MISTAKES["weight-twice"].diagnosed().causes[0].explanation == "recorded = right x w"
 
 
+@pytest.mark.parametrize(
+    ("reason", "words"),
+    [
+        ("roulette", "paths end by roulette, though none was lost just before"),
+        ("max_depth", "paths end as the deepest that may be, though they are not so deep"),
+        ("escaped", "paths end as escaped, though something is met"),
+        ("black", "paths end as at a black surface, though it reflects light"),
+    ],
+)
+def test_an_end_for_a_reason_that_is_not_there_is_told_in_words(reason, words):
+    trace = changed(traced("rooms"), "end.reason", lambda was: np.full_like(was, END_REASONS.index(reason)))
+    finding = examine(trace, only={"end"}).findings[0]
+    assert (finding.explanation, finding.recorded, finding.right) == (words, None, None)
+
+
 @pytest.mark.parametrize("finite", [True, False])
 def test_paths_may_be_dropped_as_invalid_only_for_a_number_that_is_none(finite):
     invalid = END_REASONS.index("invalid")

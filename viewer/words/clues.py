@@ -101,6 +101,16 @@ _PIECES = (
         "paths are dropped as invalid, though each number of theirs is finite",
         "路径被当作无效而丢弃，而它们的每个数都是有限的",
     ),
+    (
+        "paths end by roulette, though none was lost just before",
+        "路径说是因轮盘赌终止，而此前并没有在轮盘赌中落败",
+    ),
+    (
+        "paths end as the deepest that may be, though they are not so deep",
+        "路径说是因到了最大深度而终止，而它们还没有那么深",
+    ),
+    ("paths end as escaped, though something is met", "路径说是逸出场景，而它们碰到了物体"),
+    ("paths end as at a black surface, though it reflects light", "路径说是终止于黑色表面，而该表面会反射光"),
     ("each sample is clamped", "每个样本都被截断"),
     ("each sample is bent for the screen before the mean is taken", "每个样本先按屏幕曲线变换，才求平均"),
     ("the pixel is not divided by its number of samples", "像素没有除以样本数"),

@@ -77,9 +77,7 @@ def reason(evidence):
     invalid = np.flatnonzero(end == _REASON["invalid"])
     if invalid.size:
         may[invalid] |= without_number(evidence)[evidence.trace.tables["end"].path[invalid]]
-    return Outcome(
-        "end", rows, ~may & ~unsure, unsure, end, end, "reason", facts={"reasons": np.unique(end[~may])}
-    )
+    return Outcome("end", rows, ~may & ~unsure, unsure, what="reason")
 
 
 def _without_direction(evidence, vertex):

@@ -113,11 +113,21 @@ def ledger(case):
     return first(case, guesses)
 
 
+_UNFOUNDED = {
+    "invalid": "paths are dropped as invalid, though each number of theirs is finite",
+    "roulette": "paths end by roulette, though none was lost just before",
+    "max_depth": "paths end as the deepest that may be, though they are not so deep",
+    "escaped": "paths end as escaped, though something is met",
+    "black": "paths end as at a black surface, though it reflects light",
+}
+
+
 def end(case):
     """Paths that end for no reason."""
     reasons = np.asarray(END_REASONS)[case.evidence("end.reason")[case.rows]]
-    if (reasons == "invalid").mean() >= SHARE:
-        return Clue(None, "paths are dropped as invalid, though each number of theirs is finite")
+    for reason, words in _UNFOUNDED.items():
+        if (reasons == reason).mean() >= SHARE:
+            return Clue(None, words)
     return None
 
 
