@@ -92,6 +92,7 @@ system:
 	$(PYTHON) -m venv --clear .venv
 
 .venv/.run: pyproject.toml constraints.txt | .venv/bin/python
+	@echo "The first time about 200 MB are downloaded into .venv: a minute or two."
 	$(RUN) pip install -q -e .
 	@touch $@
 

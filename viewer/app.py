@@ -131,6 +131,8 @@ def _run(session, port, open_browser, number=None, framed=False, engine="numpy")
         window.loop = asyncio.get_running_loop()
         address = f"http://127.0.0.1:{server.port}/?key={door.key}"
         print(address, flush=True)
+        if sys.stderr.isatty():
+            print(f"castray: {say('told.opened')}", file=sys.stderr)
         _begin(window, calls, number)
         if open_browser:
             webbrowser.open(address)

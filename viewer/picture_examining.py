@@ -1,5 +1,6 @@
 """The doctor's hypotheses in the viewer, from the file that the picture is compared with."""
 
+import time
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
@@ -13,13 +14,17 @@ from viewer.picture_doctor import opinion_on
 from viewer.picture_report import beyond, said_of
 from viewer.worker import Stopped
 
+OFTEN = 0.5  # seconds between two words of progress
+
 
 @dataclass
 class Guess:
-    """What the doctor said of a picture's file."""
+    """What the doctor said of a picture's file. rendered: how many pictures of mistakes are made, of how
+    many, while it is busy."""
 
     rival: Rival
     busy: bool = False
+    rendered: tuple = (0, 0)
     opinion: Any = None
     album: Any = None
     error: TracerError | None = None
@@ -54,14 +59,23 @@ class Guesser:
         session, guess = self.session, guess_of(self.session)
         if guess is None or guess.busy:
             return
-        guess.busy, guess.error = True, None
-        scene = session.scene
+        guess.busy, guess.error, guess.rendered = True, None, (0, 0)
+        scene, told = session.scene, time.monotonic()
+
+        def progress(done, total):
+            nonlocal told
+            if session.desk.get("guess") is not guess:
+                raise Stopped
+            guess.rendered = done, total
+            if time.monotonic() - told >= OFTEN:
+                told = time.monotonic()
+                self.window.back(self.window.show, "doctor")
 
         def job():
             if session.desk.get("guess") is not guess:
                 raise Stopped
             with guess.rival.file() as file:
-                return opinion_on(opened(file), scene)
+                return opinion_on(opened(file), scene, progress=progress)
 
         def done(found):
             guess.busy, (guess.opinion, guess.album) = False, found
@@ -83,9 +97,12 @@ def shown(session, say):
     told = {
         "head": say("exam.picture", name=PurePath(guess.rival.name).name),
         "busy": guess.busy,
+        "status": "",
         "verdict": "",
         "hypotheses": [],
     }
+    if guess.busy and guess.rendered[1]:
+        told["status"] = say("exam.guessing", done=guess.rendered[0], total=guess.rendered[1])
     told["error"] = say.error(str(guess.error)) if guess.error else ""
     if guess.opinion is not None:
         found = guess.opinion.hypotheses

@@ -7,11 +7,14 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from rich.cells import cell_len
 from suite import castray
 
+import tracer
 from viewer import spoken_help
 from viewer.cli import COMMANDS, EXAMPLES, main
 from viewer.folded import ends_of_lines
@@ -173,3 +176,29 @@ def test_a_vertex_without_a_direction_is_printed_as_json_all_the_same(capsys):
         main([*words, "--event", "2", "--json"])
     document = json.loads(capsys.readouterr().out)
     assert document["lens"]["vectors"]["wi"] == [None, None, None]
+
+
+def test_a_render_says_what_was_saved_only_where_something_was(capsys, tmp_path):
+    said = []
+    for words in ((), ("--adaptive", "mse")):
+        main_of("render", "cornell_unit", "--size", 16, 16, "--spp", 64, *words, "-o", tmp_path / "a.png")
+        said.append(capsys.readouterr().out)
+    assert "samples per pixel" not in said[0]
+    assert "median" in said[1] and "of 64 saved" not in said[1]
+
+
+def test_a_stopped_render_says_how_much_is_there(monkeypatch, capsys, tmp_path):
+    def stopped(*args, **options):
+        samples = np.where(np.arange(256).reshape(16, 16) < 64, 64, 0)
+        return replace(render(*args, **options), samples=samples, complete=False)
+
+    render = tracer.render
+    monkeypatch.setattr(tracer, "render", stopped)
+    main_of("render", "cornell_unit", "--size", 16, 16, "--spp", 64, "-o", tmp_path / "a.png")
+    out = capsys.readouterr().out
+    assert "25% of the samples are there" in out and "of 64 saved" not in out
+
+
+def main_of(*words):
+    with pytest.raises(SystemExit):
+        main([*map(str, words)])

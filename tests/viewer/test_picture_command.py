@@ -15,6 +15,7 @@ from lessons.zoo import ZOO
 from tracer.doctor.picture import Wall, strangest
 from tracer.doctor.picture.clues import EVEN, UNSEEN, VARIES, Clues, Seen
 from tracer.scene_file.change import changed
+from viewer import picture_examining
 from viewer.picture_report import beyond, print_objects
 from viewer.words import Speaker
 
@@ -177,3 +178,12 @@ def test_the_command_says_what_agrees_and_what_to_log_where_nothing_fits(tmp_pat
         "clues"
     ]
     assert clues["agree"]["places"] >= 10 and len(clues["log"]) == 3
+
+
+def test_the_page_tells_how_far_the_mistakes_are_rendered(monkeypatch):
+    rival = SimpleNamespace(name="mine.png")
+    guess = picture_examining.Guess(rival, busy=True, rendered=(12, 74))
+    monkeypatch.setattr(picture_examining, "guess_of", lambda session: guess)
+    assert "12 of 74" in picture_examining.shown(None, Speaker("en"))["status"]
+    guess.busy = False
+    assert picture_examining.shown(None, Speaker("en"))["status"] == ""

@@ -35,6 +35,7 @@ TEMPLATE = """
       <tr v-for="r in doctor.untestable" :key="r.rule" :title="r.law"><td>{{ r.title }}</td><td class="dim">{{ r.missing }}</td></tr></tbody></table></details>
   <section v-if="doctor.picture" class="finding asked" data-testid="doctor-picture"><div class="between"><p>{{ doctor.picture.head }}</p>
     <button data-testid="doctor-guess" :disabled="doctor.picture.busy" @click="trigger('doctor_guess')"><span v-if="doctor.picture.busy" class="busy" aria-hidden="true"></span>{{ w.exam_guess }}</button></div>
+    <p v-if="doctor.picture.status" class="dim" data-testid="doctor-guessing">{{ doctor.picture.status }}</p>
     <p v-if="doctor.picture.error" class="warning" role="alert">{{ doctor.picture.error }}</p>
     <p v-if="doctor.picture.verdict" :class="doctor.picture.good ? 'good' : 'warning'" data-testid="doctor-guessed">{{ doctor.picture.verdict }}</p>
     <ul v-if="doctor.picture.hypotheses.length" class="findings"><li v-for="(h, k) in doctor.picture.hypotheses" :key="k" :data-testid="'hypothesis-' + k"><b>{{ h[0] }}</b><p v-for="line in h.slice(1)" :key="line">{{ line }}</p></li></ul></section>
