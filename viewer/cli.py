@@ -22,6 +22,9 @@ EXAMPLES = {
     "diff": "a.exr b.exr", "check": "my_tracer.py", "export": "cornell",
 }  # fmt: skip
 
+# Options that take several numbers, and such numbers.
+VALUES = {"--pixel": "50 57", "--size": "64 64"}
+
 
 def _version():
     from importlib.metadata import version
@@ -77,6 +80,12 @@ def _told(error):
     line = " ".join(str(error).split())
     command = (getattr(error, "command_chain", None) or ("",))[0]
     name = getattr(getattr(error, "argument", None), "name", "")
+    if isinstance(error, MissingArgumentError) and name in VALUES and command in COMMANDS:
+        what = f" {EXAMPLES[command]}" if command in EXAMPLES else ""
+        return (
+            f"{command}: {name} takes {VALUES[name].count(' ') + 1} numbers; for example: "
+            f"castray {command}{what} {name} {VALUES[name]}"
+        )
     if isinstance(error, MissingArgumentError) and command in EXAMPLES and not name.startswith("-"):
         return f"{command}: {name} is missing; for example: castray {command} {EXAMPLES[command]}"
     return line

@@ -2,6 +2,7 @@
 
 from dataclasses import fields, make_dataclass, replace
 from json import dumps
+from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Group, Parameter
@@ -14,6 +15,11 @@ from viewer.spoken_help import PATH_OPTIONS
 
 ENGINES = ("numpy", "gl", "auto")
 SMALL_SIDE = 64  # pixels
+# Endings of the languages that path tracers are written in.
+SOURCES = (
+    ".c", ".cc", ".cpp", ".cs", ".cu", ".cxx", ".f90", ".glsl", ".go", ".h", ".hpp", ".hs", ".java", ".jl",
+    ".js", ".kt", ".lua", ".m", ".mjs", ".rs", ".swift", ".ts", ".zig",
+)  # fmt: skip
 
 
 def _whole(type_, tokens):
@@ -108,8 +114,26 @@ def shrunk(settings, scene):
     return replace(settings, width=width, height=height)
 
 
+def check_no_tracer(text):
+    """TracerError if a file is a tracer or a tracer's log: what it is for, where a scene is asked for."""
+    path = Path(text)
+    ending = path.suffix.lower()
+    if not path.is_file():
+        return
+    if ending == ".py":
+        raise TracerError(f"{text}: is a tracer in Python, no scene; castray check {text} judges it")
+    if ending == ".jsonl":
+        raise TracerError(f"{text}: is a log, no scene; castray doctor {text} --scene SCENE judges it")
+    if ending in SOURCES:
+        raise TracerError(
+            f"{text}: is source code, which castray does not run; let your tracer write a log: "
+            "castray log --schema, in C++ castray log --header castray.h"
+        )
+
+
 def scene_of(text, options):
     """The scene of that name or file, with the changes that the path options ask for."""
+    check_no_tracer(text)
     loaded = tracer.load(text)
     if options is None or not options.set:
         return loaded

@@ -109,6 +109,11 @@ def test_why_a_path_ended_is_not_made_up_where_no_line_says_it(written, cornell)
     assert said.startswith("The path is over; why was not recorded.")
 
 
+def test_a_log_of_another_scene_is_asked_whether_it_is_one(written):
+    log = read_log(written(OUTER, INNER), tracer.load("furnace"))
+    assert any("is the log of another scene?" in note for note in log.notes)
+
+
 @pytest.mark.slow
 def test_a_log_in_which_little_is_said_is_not_called_right_without_a_word(written):
     path = written(OUTER, INNER)

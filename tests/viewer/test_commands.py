@@ -202,3 +202,31 @@ def test_a_stopped_render_says_how_much_is_there(monkeypatch, capsys, tmp_path):
 def main_of(*words):
     with pytest.raises(SystemExit):
         main([*map(str, words)])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("doctor", "mine.py"), "castray check mine.py judges it"),
+        (("view", "box.cpp"), "castray log --header castray.h"),
+        (("check", "trace.js"), "castray log --schema"),
+        (("render", "mine.jsonl"), "castray doctor mine.jsonl --scene SCENE"),
+        (
+            ("inspect", "cornell"),
+            "--pixel takes 2 numbers; for example: castray inspect cornell --pixel 50 57",
+        ),
+        (("render", "cornell", "--size", "8"), "castray render cornell --size 64 64"),
+    ],
+)
+def test_who_gives_a_file_or_numbers_that_will_not_do_is_told_what_does(
+    words, said, monkeypatch, tmp_path, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    for name in ("mine.py", "box.cpp", "trace.js", "mine.jsonl"):
+        (tmp_path / name).write_text("// mine", encoding="utf-8")
+    for language in LANGUAGES:
+        with pytest.raises(SystemExit) as ended:
+            main(["--lang", language, *words])
+        out, err = capsys.readouterr()
+        assert ended.value.code == 2 and not out and len(err.splitlines()) == 1
+        assert said in err or language != "en"

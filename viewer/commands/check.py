@@ -7,7 +7,7 @@ from cyclopts import Parameter
 
 from tracer.picture import check_place, write_whole
 from tracer.settings import TracerError
-from viewer.options import CheckOptions, Json, print_json
+from viewer.options import CheckOptions, Json, check_no_tracer, print_json
 from viewer.words import Speaker
 
 
@@ -48,6 +48,8 @@ def check(
         return 0
     if not 0.0 < seconds < float("inf"):
         raise TracerError(f"seconds: {seconds} is not a time")
+    if file.suffix.lower() != ".py":
+        check_no_tracer(str(file))
     if file.is_dir():
         return _folder(file, scene, seconds, csv, html, options, json)
     if csv is not None or html is not None:

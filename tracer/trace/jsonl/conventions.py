@@ -130,12 +130,19 @@ def _pairs(found):
     return pairs
 
 
+def none_of(scene):
+    """What is said where no vertex lies on any surface."""
+    return f"no vertex lies on a surface of {scene.name}: is the log of another scene?"
+
+
 def complaints_of_scene(chain, places, scene, settings, header):
     """What shows only beside the scene: turned normals, a mirrored picture, points on no surface."""
     yield from _of_normals(chain, places, header)
     yield from _of_pixels(chain, places, scene, settings, header)
-    nowhere = int(np.count_nonzero(places.hit & (places.primitive < 0)))
-    if nowhere:
+    nowhere, of = (int(np.count_nonzero(places.hit & some)) for some in (places.primitive < 0, True))
+    if nowhere == of > 0:
+        yield none_of(scene)
+    elif nowhere:
         line = int(chain.columns.line[np.flatnonzero(places.hit & (places.primitive < 0))[0]])
         yield f"{nowhere} vertices lie on no surface of {scene.name}, the first in line {line}"
 

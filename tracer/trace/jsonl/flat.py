@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.bsdf import Plastic
 from tracer.frame import dot, length, normalize
-from tracer.trace.jsonl import geometry
+from tracer.trace.jsonl import conventions, geometry
 
 
 class Completed:
@@ -64,7 +64,9 @@ class Completed:
             primitive = geometry.primitives_at(self.scene, p - d, d, p)
             hits.columns["primitive"] = np.maximum(primitive, 0)
             nowhere = int(np.count_nonzero(primitive < 0))
-            if nowhere:
+            if nowhere == primitive.size > 0:
+                self.notes.append(conventions.none_of(self.scene))
+            elif nowhere:
                 self.notes.append(f"{nowhere} vertices lie on no surface of {self.scene.name}")
         ng, n = geometry.surfaces(self.scene, p, d, hits["primitive"])
         self._add("hit", "ng", ng)
