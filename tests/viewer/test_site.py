@@ -1,5 +1,6 @@
 """The course as web pages: they open from a file and ask for nothing; what they list is all there is."""
 
+import html
 import inspect
 import re
 from functools import cache
@@ -8,6 +9,7 @@ import pytest
 
 import tracer
 from lessons.course import lesson, lessons
+from tracer.trace.jsonl import schema_text
 from viewer.cli import main
 from viewer.site import build, formula_map, frame, index, log_format, reference
 from viewer.site.build import lesson_pages
@@ -29,8 +31,7 @@ def pages_of(solutions):
 @cache
 def page(name):
     """A page that is no lesson."""
-    made = {"reference.html": reference.page, "log-format.html": log_format.page}
-    return made[name]() if name in made else formula_map.page(Speaker(name))
+    return reference.page() if name == "reference.html" else formula_map.page(Speaker(name))
 
 
 @pytest.mark.browser
@@ -80,10 +81,11 @@ def test_solutions_are_on_the_pages_only_where_they_are_asked_for():
 
 @pytest.mark.slow
 def test_every_link_of_the_pages_leads_to_a_page_that_is_built():
-    known = {"reference.html", "log-format.html"}
-    stems = ["index", "formulas", *(f"lesson-{number:02}" for number in lessons())]
+    known = {"reference.html"}
+    stems = ["index", "formulas", "log-format", *(f"lesson-{number:02}" for number in lessons())]
     known |= {frame.named(stem, tag) for stem in stems for tag in LANGUAGES}
-    texts = [*pages_of(True).values(), *map(page, ("reference.html", "log-format.html", "en", "zh"))]
+    texts = [*pages_of(True).values(), *map(page, ("reference.html", "en", "zh"))]
+    texts += [log_format.page(Speaker(tag)) for tag in LANGUAGES]
     for text in texts:
         targets = re.findall(r'href="(?!data:)([^"#]*)(?:#[^"]*)?"', text)
         assert {target for target in targets if target} <= known
@@ -119,3 +121,10 @@ def test_a_folder_that_cannot_be_made_is_one_line(tmp_path, capsys):
     said = capsys.readouterr()
     assert ended.value.code == 2 and said.out == ""
     assert said.err.count("\n") == 1 and "cannot be written" in said.err
+
+
+def test_the_page_of_the_log_format_says_what_the_command_does_in_its_language():
+    for tag in LANGUAGES:
+        say = Speaker(tag)
+        assert html.escape(schema_text(say.optional)) in log_format.page(say)
+        assert f'href="{frame.named("log-format", tag)}"' in index.page(say)

@@ -50,12 +50,13 @@ def lesson_pages(number, solutions=True):
 
 def _around():
     """{name: text} of the pages that are no lesson."""
-    made = {"reference.html": reference.page(), "log-format.html": log_format.page()}
+    made = {"reference.html": reference.page()}
     for language in LANGUAGES:
         say = Speaker(language)
         made |= {
             index.file_of(language): index.page(say),
             formula_map.file_of(language): formula_map.page(say),
+            log_format.file_of(language): log_format.page(say),
         }
     return made
 

@@ -12,8 +12,8 @@ from viewer.offline import document
 from viewer.words import LANGUAGES, Speaker
 
 HERE = Path(__file__).parent
-# Pages in English only: what they show is worded where it is declared.
-ENGLISH = ("reference.html", "log-format.html")
+# In English only: it is made of docstrings.
+ENGLISH = ("reference.html",)
 
 
 def named(stem, language):
@@ -36,7 +36,7 @@ def framed(title, main, stem, language, styles="", scripts="", wide=False):
 
 def _nav(say):
     pages = {"index": named("index", say.language), "formulas": named("formulas", say.language)}
-    pages |= {"reference": "reference.html", "log": "log-format.html"}
+    pages |= {"reference": "reference.html", "log": named("log-format", say.language)}
     return " ".join(f'<a href="{href}">{escape(say(f"site.{name}"))}</a>' for name, href in pages.items())
 
 

@@ -3,7 +3,7 @@
 from html import escape
 
 from lessons.course import lessons
-from viewer.site import lesson_page
+from viewer.site import lesson_page, log_format
 from viewer.site.frame import framed, named
 
 
@@ -22,7 +22,7 @@ def page(say):
         f"<h2>{escape(say('site.beside'))}</h2><ul>"
         f'<li><a href="{named("formulas", say.language)}">{escape(say("site.formulas"))}</a><br>{escape(say("site.formulas_about"))}</li>'
         f'<li><a href="reference.html">{escape(say("site.reference"))}</a><br>{escape(say("site.reference_about"))}</li>'
-        f'<li><a href="log-format.html">{escape(say("site.log"))}</a><br>{escape(say("site.log_about"))}</li></ul>'
+        f'<li><a href="{log_format.file_of(say.language)}">{escape(say("site.log"))}</a><br>{escape(say("site.log_about"))}</li></ul>'
     )
     return framed(say("site.title"), main, "index", say.language)
 

@@ -40,7 +40,7 @@ WORDS = {
         "site.reference": "Python 参考",
         "site.reference_about": "公开的名称，以及它们的形状、单位、错误和所在位置（英文）。",
         "site.log": "日志格式",
-        "site.log_about": "你自己的追踪器怎样告诉 castray 它做了什么（英文）。",
+        "site.log_about": "你自己的追踪器怎样告诉 castray 它做了什么。",
         "site.functions_about": "计算课程中公式的函数。",
         "site.beside": "课程之外",
         "site.tasks": "题目",
