@@ -15,6 +15,7 @@ MENDED |= {"<mi>&#x027FA;</mi>": "<mo>&#x027FA;</mo>"}
 NAME = rf"\\(?:{'|'.join(NAMES)})(?![A-Za-z])"
 SCRIPT = r"[\^_](?:\{[^{}]*\}|\\[A-Za-z]+|.)"
 BEFORE = re.compile(rf"(?<=[\w}}])\s*({NAME})")
+OPTION = re.compile(r"(?<!\S)--[a-z][\w-]*")
 AFTER = re.compile(rf"({NAME}(?:{SCRIPT})*)\s*(?=[A-Za-z\\])(?!\\(?:left|[,;:! ]))")
 
 
@@ -56,9 +57,16 @@ def mathml(latex, display=False):
 def _renderer():
     reader = markdown()
     reader.add_render_rule("math_inline", lambda self, tokens, k, *_: mathml(tokens[k].content))
+    reader.add_render_rule("code_inline", lambda self, tokens, k, *_: _code(tokens[k].content))
     for name in ("math_block", "math_block_label"):
         reader.add_render_rule(name, _displayed)
     return reader
+
+
+def _code(text):
+    """Code within a line; an option stays whole, which browsers would break after its dashes."""
+    whole = OPTION.sub(r'<span class="option">\g<0></span>', escape(text, quote=False))
+    return f"<code>{whole}</code>"
 
 
 def _displayed(self, tokens, k, options, env):

@@ -110,6 +110,12 @@ def test_no_number_stands_in_a_text_that_the_run_should_give(number, language):
         assert not bare, f"{place}: {bare}; fill them in, or allow them in the front matter"
 
 
+def test_an_option_in_a_line_is_not_broken_after_its_dashes():
+    made = html("Use `castray view cornell --bug E01 -o x.png` and `a --> b`.", str)
+    assert made.count('<span class="option">--bug</span>') == made.count("<span") == 1
+    assert "castray view cornell" in made and "a --&gt; b" in made
+
+
 @each_run
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_every_text_is_filled_in_and_shown_in_the_terminal_and_as_html(number, language):

@@ -15,6 +15,8 @@ from lessons.zoo import planted
 from viewer.caption import caption, light_outcome, why_dead
 from viewer.equation import origin
 from viewer.numerals import luminance
+from viewer.panels import vertex as vertex_panel
+from viewer.session import Session
 from viewer.understanding import lens, microscope
 from viewer.understanding.draws import DRAWS, OFF
 from viewer.understanding.lens_words import judged
@@ -97,6 +99,14 @@ def test_what_is_no_number_is_called_nan_and_not_light_that_the_surface_does_not
         for sentence in (*(r.sentence(say) for r in why(record, scene)), why_dead(path, scene, say)):
             assert not re.search(r"\bnan\b", sentence)
     assert seen >= 3
+
+
+def test_a_path_that_meets_no_surface_is_not_asked_to_go_on_to_one():
+    session = Session(tracer.load("sky"), tracer.Settings(width=16, height=16, spp=2), None)
+    for y, key in ((1, "lens.never"), (14, "lens.not_yet")):  # the sky, the ground
+        session.pick(8, y)
+        session.cursor = session.cursor.first()
+        assert vertex_panel.show(session, Speaker("en"))["none"] == Speaker("en")(key)
 
 
 def test_a_factor_was_made_by_the_event_that_it_names():

@@ -16,7 +16,7 @@ SAME = 0.99999  # cosine between normals that are drawn as one
 FAINT = 512  # of the bounces drawn anew, as dots
 
 TEMPLATE = """
-<div v-if="vertex" class="vertex" data-testid="vertex"><p v-if="!vertex.lens" class="dim">{{ w.vertex_none }}</p>
+<div v-if="vertex" class="vertex" data-testid="vertex"><p v-if="!vertex.lens" class="dim">{{ vertex.none }}</p>
   <template v-else><div class="between"><p data-testid="vertex-at">{{ vertex.at }}</p>
       <button data-testid="lobes" :aria-pressed="vertex.lobes" :class="{now: vertex.lobes}" :title="w.lobes_help" @click="trigger('lobes')">{{ w.lobes }}</button></div>
     <castray-lens :lens="vertex.lens" :label="w.vertex_lens" @go="trigger('at', $event)"></castray-lens>
@@ -41,7 +41,9 @@ def show(session, say):
     """The lens and the microscope at the event; no lens before the first surface."""
     lens = lenses.here(session)
     if lens is None:
-        return {"lens": None, "lobes": bool(session.shelf.get(lenses.SHOWN))}
+        met = any(event.kind.name == "hit" for event in session.path.events)
+        none = say("lens.not_yet" if met else "lens.never")
+        return {"lens": None, "none": none, "lobes": bool(session.shelf.get(lenses.SHOWN))}
     scene = lens.vertex.scene
     hit = last_hit(session.path, session.cursor.event)
     names = {name: named(name, hit[name], scene) for name in ("shape", "bsdf")}
