@@ -32,6 +32,8 @@ _WAY = ("unit-direction", "bounce-side", "bounce-mirror", "chain")
 _MET = ("on-surface", "unit-normal", "normal", "shading-normal", "chain", "own-surface", "first-surface",
     "distance", "wo", "side", "emission", "pdf-of-light", "light-due", "bounce-side", "bounce-mirror",
     "bounce-mirror-f", "bounce-mirror-pdf")  # fmt: skip
+# What is held against the scene where the log has no number of its own: another surface, another number.
+_OF_SCENE = {"throughput": "bounce.f", "roulette-weight": "bounce.f", "light-term": "light.f"}
 _UNCARRIED = ("bounce-side", "bounce-f", "bounce-pdf", "light-due")  # why a bounce may carry nothing
 _OF_MANY = tuple(rule.id for rule in statistics.RULES)
 _NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
@@ -160,7 +162,8 @@ def _led(trace, single):
         first = np.full(trace.size, np.inf)
         np.minimum.at(first, path, step)
         for judged in single:
-            if judged.rule.id in _MET and judged.rule.id != lead.rule.id and judged.finding is not None:
+            met = judged.rule.id in _MET or _OF_SCENE.get(judged.rule.id) in trace.assumed
+            if met and judged.rule.id != lead.rule.id and judged.finding is not None:
                 path, step = judged.where(trace)
                 if (step >= first[path]).mean() >= _AFTER:
                     found.setdefault(judged.rule.id, lead.rule.id)
@@ -243,7 +246,9 @@ def followed(findings):
     """Id of a law -> id of the cause that it was found to follow from on its paths, of those still there."""
     there = {f.rule for f in findings}
     return {
-        f.rule: f.follows for f in findings if f.rule in _MET and f.follows in _WAY and f.follows in there
+        f.rule: f.follows
+        for f in findings
+        if (f.rule in _MET or f.rule in _OF_SCENE) and f.follows in _WAY and f.follows in there
     }
 
 
