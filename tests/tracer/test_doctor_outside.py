@@ -106,6 +106,25 @@ def test_an_end_for_a_reason_that_is_not_there_is_told_in_words(reason, words):
     assert (finding.explanation, finding.recorded, finding.right) == (words, None, None)
 
 
+def test_wrong_weights_are_named_where_they_are_another_function_of_the_densities_only():
+    right = traced("room", width=32, height=32)
+    table = right.tables["light"]
+    pdf, other = (
+        np.where(table[name] > 0.0, table[name], 1e-6).astype(float) for name in ("pdf", "pdf_bsdf")
+    )
+    some = np.arange(pdf.size) % 4 == 0
+    noise = np.random.default_rng(1).random(pdf.size)
+    named = {}
+    for words, w in (
+        ("another power", 1.0 / (1.0 + (other / pdf) ** 0.25)),
+        ("some", np.where(some, 0.5 * table["w"], table["w"])),
+        ("neither density", noise),
+    ):
+        (finding,) = examine(with_column(right, "light.w", w), only={"light-weight"}).findings
+        named[words] = finding.bug
+    assert named == {"another power": "M01", "some": None, "neither density": None}
+
+
 @pytest.mark.parametrize("finite", [True, False])
 def test_paths_may_be_dropped_as_invalid_only_for_a_number_that_is_none(finite):
     invalid = END_REASONS.index("invalid")
