@@ -86,6 +86,23 @@ def test_a_right_log_gives_no_findings_however_much_it_says(logged, cornell, bug
     assert findings(path, cornell) == []
 
 
+def test_roulette_of_which_the_log_has_no_word_is_read_off_what_pays_for_it(logged, cornell):
+    """All else is logged, so that throughput can be tested, and grows by 1/q too much."""
+    path, _ = logged("none", 2, seed=7)
+    lines = [json.loads(line) for line in path.read_text(encoding="ascii").splitlines()]
+    lines = [{k: v for k, v in line.items() if not k.startswith("roulette")} for line in lines]
+    path.write_text("\n".join(json.dumps(line) for line in lines) + "\n", encoding="ascii")
+    log = read_log(path, cornell)
+    assert log.read_off["roulette"] == "0.8" and "max_depth" not in log.read_off
+    assert findings(path, cornell) == []
+    for call in lines[1:]:
+        if "indirect" in call:  # paid for with 0.64, and played with 0.8
+            call["indirect"] = [v / 0.8 for v in call["indirect"]]
+            del call["returned"]
+    path.write_text("\n".join(json.dumps(line) for line in lines) + "\n", encoding="ascii")
+    assert read_log(path, cornell).read_off["roulette"] == "off"
+
+
 def test_who_looks_ahead_may_log_roulette_only_where_it_lets_go_on(logged, cornell):
     path, _ = logged("PEEK", 2, seed=7)
     lines = [json.loads(line) for line in path.read_text(encoding="ascii").splitlines()]

@@ -16,6 +16,7 @@ from tracer.trace.jsonl import (
     lines,
     peek,
     places,
+    survival,
     told,
     undeclared,
 )
@@ -123,6 +124,14 @@ def _of_calls(read, scene, exact, settings, read_off):
         scene, exact = scene.at(settings), exact.at(replace(settings, precision=64))
     telling = told.Telling(chain, where, exact, scene.dtype, settings, read.header.eps, known, sampled)
     tables = telling.tables()
+    dark = int(np.count_nonzero(telling.dark[telling.rows["hit"]]))
+    if not known and (q := survival.shown(tables, dark)) is not None:
+        read_off |= {"roulette": f"{q:.9g}"}
+        read_off.pop("max_depth", None)
+        settings = replace(settings, roulette=read_off["roulette"], max_depth=-1)
+        scene = scene.at(settings)
+        telling = told.Telling(chain, where, exact, scene.dtype, settings, read.header.eps, True, sampled)
+        tables = telling.tables()
     root = telling.rows["camera"]
     assumed = telling.assumed | _summed(tables)
     paths = _paths(
