@@ -114,7 +114,7 @@ def test_the_doctor_reads_a_compared_picture_that_came_from_the_page(tmp_path, m
     (tmp_path / "mine.png").write_bytes(b"another file of that name, where the viewer was started")
     session = Session(tracer.load("furnace"), tracer.Settings(width=16, height=16, spp=1), tracer.load)
     session.rivals["mine.png"], session.against = upload.rival, "mine.png"
-    monkeypatch.setattr(picture_examining, "opinion_on", lambda given, scene: (given, None))
+    monkeypatch.setattr(picture_examining, "opinion_on", lambda given, scene, progress: (given, None))
     now = Now()
     now.session = session
     picture_examining.Guesser(now, now).guess()
