@@ -123,7 +123,7 @@ MISTAKES = (
     _of(
         "blind-nearby",
         "nothing nearer than 20 mm is met",
-        ("first-surface", "light-visible"),
+        ("first-surface", "escape-free", "light-visible"),
         {"far < 1e-3": "far < 20"},
     ),
     _of(

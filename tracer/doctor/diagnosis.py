@@ -5,43 +5,13 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from tracer.doctor import statistics
+from tracer.doctor.causes import led_astray, ranked
 from tracer.doctor.evidence import Evidence
 from tracer.doctor.laws import LAWS
 from tracer.doctor.naming import named
 from tracer.doctor.rule import CLEAN, FIRED, NOT_TESTABLE, Outcome, Verdict, applied
-from tracer.doctor.statistics.cells import FEW
 from tracer.trace.folder import view_command
 
-# What breaks together: where the first of a group is broken, the others are too, by the same mistake.
-_TOGETHER = (
-    ("camera-ray", "camera-start", "chain", "escape-direction", "own-surface", "first-surface", "escape-free",
-    "on-surface",      "distance", "wo"),
-    ("unit-normal", "normal", "shading-normal", "side"),
-    ("bounce-mirror", "bounce-mirror-f", "bounce-mirror-pdf"),
-    ("bounce-side", "bounce-f", "bounce-pdf"),
-    ("transmittance", "light-transmittance", "throughput-on-arrival"),
-    ("emission", "pdf-of-light"),
-    ("roulette-probability", "roulette-played"),
-    ("light-pick", "light-pdf"),
-    ("light-radiance", "light-pdf"),
-    ("unit-light", "light-visible"),
-    ("light-normal", "light-radiance"),
-)  # fmt: skip
-# Where a path goes on, and what it can only meet wrongly after it went on wrongly.
-_WAY = ("unit-direction", "bounce-side", "bounce-mirror", "chain")
-_MET = ("on-surface", "unit-normal", "normal", "shading-normal", "chain", "own-surface", "first-surface",
-    "distance", "wo", "side", "emission", "pdf-of-light", "light-due", "bounce-side", "bounce-mirror",
-    "bounce-mirror-f", "bounce-mirror-pdf")  # fmt: skip
-# What is held against the scene where the log has no number of its own: another surface, another number.
-_OF_SCENE = {"throughput": "bounce.f", "roulette-weight": "bounce.f", "light-term": "light.f"}
-_UNCARRIED = ("bounce-side", "bounce-f", "bounce-pdf", "light-due")  # why a bounce may carry nothing
-_OF_MANY = tuple(rule.id for rule in statistics.RULES)
-_NUMBERS = ("numbers-once", "numbers-uniform", "numbers-independent")
-_BOUNCES = ("unit-normal", "normal", "shading-normal", "unit-direction", "wo", "absorbed", "bounce-")
-_AMOUNTS = ("bounce-f", "bounce-cos")  # which say nothing of where bounces go
-_ALWAYS_LATER = ("light-nothing", "domain", "finite")  # what any mistake may lead to
-_AFTER = 0.999  # share of a law's events that have to come after those of another
-_ENOUGH = 0.25  # times as often as a law what is to be the cause of it has to be broken
 _VERTICES = 1 << 18  # that are judged at once, about 300 MB
 
 
@@ -148,26 +118,9 @@ def examine(trace, only=None):
     many = statistics.judged(whole, only)
     findings = [judged.finding for judged in single if judged.finding is not None]
     findings += [_finding(whole, verdict) for verdict in many if verdict.state == FIRED]
-    led = _led(trace, single)
-    return Diagnosis(ranked(findings, led), (*(judged.verdict for judged in single), *many))
-
-
-def _led(trace, single):
-    """Id of a law -> id of the law of the way that was broken before it on each path where it is broken."""
-    found = {}
-    for lead in single:
-        if lead.rule.id not in _WAY or lead.finding is None:
-            continue
-        path, step = lead.where(trace)
-        first = np.full(trace.size, np.inf)
-        np.minimum.at(first, path, step)
-        for judged in single:
-            met = judged.rule.id in _MET or _OF_SCENE.get(judged.rule.id) in trace.assumed
-            if met and judged.rule.id != lead.rule.id and judged.finding is not None:
-                path, step = judged.where(trace)
-                if (step >= first[path]).mean() >= _AFTER:
-                    found.setdefault(judged.rule.id, lead.rule.id)
-    return {rule: lead for rule, lead in found.items() if lead not in found}
+    return Diagnosis(
+        ranked(findings, led_astray(trace, single)), (*(judged.verdict for judged in single), *many)
+    )
 
 
 def _ranges(trace):
@@ -224,68 +177,6 @@ def _wrong_of_both(so_far, outcome, first):
     if so_far is not None:
         rows = np.concatenate((so_far.rows, rows))
     return Outcome(outcome.kind, rows, np.ones(rows.size, bool), np.zeros(rows.size, bool), what=outcome.what)
-
-
-def ranked(findings, led=None):
-    """Causes first, in the order of the rules, those last of which there are but few events; then what
-    follows from them. led: id of a law -> id of the one that is broken before it."""
-    led = led or {}
-    counts = {f.rule: f.count for f in findings}
-    often = [f.rule for f in findings if f.rule in _OF_MANY or f.count > FEW * np.sqrt(f.checked)]
-    rare = {f.rule for f in findings} - set(often)
-    ordered = []
-    for f in findings:
-        cause = led.get(f.rule) or _cause(f.rule, counts, often)
-        if f.rule == "absorbed" and f.bug is None:
-            cause = next((other for other in counts if other in _UNCARRIED), None)
-        ordered.append(f if cause is None else _following(f, cause))
-    return tuple(sorted(ordered, key=lambda f: (f.follows is not None, f.follows is None and f.rule in rare)))
-
-
-def followed(findings):
-    """Id of a law -> id of the cause that it was found to follow from on its paths, of those still there."""
-    there = {f.rule for f in findings}
-    return {
-        f.rule: f.follows
-        for f in findings
-        if (f.rule in _MET or f.rule in _OF_SCENE) and f.follows in _WAY and f.follows in there
-    }
-
-
-def _cause(rule, counts, often):
-    if rule in _OF_MANY:
-        return next((other for other in often if _explains(other, rule)), None)
-    if rule in _ALWAYS_LATER:
-        causes = (other for other in counts if other not in _ALWAYS_LATER)
-        return next((other for other in causes if counts[other] >= _ENOUGH * counts[rule]), None)
-    for group in _TOGETHER:
-        if rule in group:
-            for other in group[: group.index(rule)]:
-                if counts.get(other, 0) >= _ENOUGH * counts[rule]:
-                    return other
-    return None
-
-
-def _explains(cause, rule):
-    """Whether a broken law may be why a statistical one is."""
-    if cause == rule or (cause in _OF_MANY and _OF_MANY.index(cause) > _OF_MANY.index(rule)):
-        return False
-    if rule in _NUMBERS:
-        return cause in _NUMBERS or cause == "absorbed"
-    if rule == "film":
-        return cause in _NUMBERS or cause.startswith("camera")
-    if rule in ("mean", "variance") or cause in _NUMBERS:
-        return True
-    if rule.startswith("directions"):
-        going = cause.startswith(_BOUNCES) and cause not in _AMOUNTS
-        return going or cause.startswith("directions")
-    if rule.startswith("lamp"):
-        return cause.startswith("light-") or cause.startswith("lamp")
-    return cause.startswith("roulette")
-
-
-def _following(finding, cause):
-    return replace(finding, follows=cause, bug=None, alike=())
 
 
 def _finding(evidence, verdict):

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.doctor import statistics
-from tracer.doctor.diagnosis import followed, ranked
+from tracer.doctor.causes import followed, ranked
 from tracer.doctor.evidence import Evidence
 from tracer.doctor.rule import CLEAN, FIRED
 

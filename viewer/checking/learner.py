@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 import tracer
-from tracer.doctor.diagnosis import Diagnosis, followed, ranked
+from tracer.doctor.causes import followed, ranked
+from tracer.doctor.diagnosis import Diagnosis
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
 from tracer.trace.pixels import place
