@@ -63,6 +63,7 @@ def test_numbers_of_a_surface_that_was_not_met_are_no_cause_of_their_own():
     assert [f.rule for f in THIRD["weekend camera-not-unit"].diagnosed().causes] == ["unit-direction"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", [mistake.id for mistake in third_steps.MISTAKES])
 def test_what_resembles_a_mistake_of_the_catalogue_gets_no_wrong_name(id):
     causes = THIRD[id].diagnosed().causes

@@ -153,6 +153,7 @@ def test_a_number_held_between_bounds_is_told_with_the_bound(tmp_path, right, wr
     assert [(f.rule, f.explanation) for f in found.causes][:1] == [("light-term", said)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missed", ["1.0", "scene.sample_light().emission * float('nan')"])
 def test_what_a_ray_brings_that_meets_nothing_is_the_cause_of_what_comes_of_it(tmp_path, missed):
     """A record that keeps the last hit is not seen where that hit is used, only by what then comes back."""

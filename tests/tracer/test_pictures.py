@@ -102,6 +102,7 @@ def test_the_curve_of_the_homework_is_found_and_undone():
     assert not opinion(screen(picture(), 0.6), ("srgb",)).is_right
 
 
+@pytest.mark.slow
 def test_a_curve_that_was_said_wrongly_is_told_from_the_likelier_one():
     for values, said, likelier in ((screen(picture()), 0.6, "srgb"), (screen(picture(), 0.6), 0.6, None)):
         assert likelier_curve(values, opinion(values, (said,)), stored()) == likelier

@@ -42,6 +42,7 @@ def test_a_right_tracer_passes_in_all_its_parts(tmp_path):
     assert (found.state, found.failed) == (RIGHT, ()) and {"light", "bounce", "hit"} <= {*found.passed}
 
 
+@pytest.mark.slow
 def test_a_wrong_one_is_named_with_the_part_that_fails_and_the_command_that_proves_it(tmp_path):
     found = row(tmp_path, "追踪器.py", text().replace("* f * cos * cos_light", "* f * cos_light"))
     assert found.state == WRONG and found.failed == ("light",) and "light" not in found.passed

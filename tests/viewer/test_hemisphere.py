@@ -96,6 +96,7 @@ def test_a_lobe_covers_its_side_and_no_peak_falls_between_its_places(scene, shap
     assert share == pytest.approx(smooth.mean(), abs=0.02 + 5.0 * np.sqrt(0.25 / smooth.size))
 
 
+@pytest.mark.slow
 def test_a_polar_grid_about_the_normal_would_miss_the_peak():
     """The test above can fail: without the map to the peak a sharp lobe falls between the places."""
     from viewer.understanding import lobes as module

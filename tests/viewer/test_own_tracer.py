@@ -120,6 +120,7 @@ def test_the_command_of_each_finding_opens_its_event(file, monkeypatch, tmp_path
     assert found.more
 
 
+@pytest.mark.slow
 def test_a_place_that_a_saved_file_has_no_more_is_the_first_findings(file):
     session = Session(tracer.load("cornell"), SETTINGS, None)
     watched = Watched(file, "cornell", SETTINGS, at=(3, 3, 0, 999))

@@ -76,6 +76,7 @@ def test_the_object_that_stands_out_is_unlike_the_others(ratios, name, coloured)
     assert (wall and wall.name, of_colour) == (name, coloured)
 
 
+@pytest.mark.slow
 def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", "--json", "--spp", 8)
     said = json.loads(ran.stdout)

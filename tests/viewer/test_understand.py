@@ -215,6 +215,7 @@ def test_every_reason_is_a_sentence_of_its_language(language):
             assert reason.as_dict(say)["sentence"] == said
 
 
+@pytest.mark.slow
 def test_the_command_says_why_in_words_and_in_json():
     words = ("inspect", "cornell_unit", "--pixel", 12, 16, "--size", 24, 24, "--spp", 6, "--why")
     document = json.loads(castray(*words, "--json").stdout)
