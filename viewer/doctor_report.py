@@ -101,7 +101,7 @@ def _said(finding, say):
     for name in ("recorded", "right"):
         value = getattr(finding, name)
         if value is not None:
-            yield name, Text(equation(say.quantity(finding.what), value))
+            yield name, Text(equation(say.quantity(finding.what), value, say))
     if finding.explanation:
         yield "why", Text(say.clue(finding.explanation))
     if finding.p is not None:
@@ -138,10 +138,10 @@ def bug_title(bug, say):
     return say.optional(f"bug.{bug}", ZOO[bug].title) if bug in ZOO else bug
 
 
-def equation(what, values):
+def equation(what, values, say):
     """What a finding is about, with its numbers."""
     if all(v is None for v in values):
-        return f"{what} = NaN or ∞"
+        return f"{what} = {say('doctor.no_number')}"
     return f"{what} = {several([float('nan') if v is None else v for v in values])}"
 
 

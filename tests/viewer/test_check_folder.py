@@ -17,6 +17,7 @@ from tracer.learner import starter
 from viewer.checking import report
 from viewer.checking.limited import Judge
 from viewer.checking.submission import FAILED, MAYBE, RIGHT, SKIPPED, WRONG, Row, files_in, row_of
+from viewer.doctor_report import equation
 from viewer.options import CheckOptions
 from viewer.replay import of_scene
 from viewer.words import Speaker
@@ -87,6 +88,11 @@ def test_the_row_says_an_error_without_its_name_and_in_chinese():
     assert report.finding(log, Speaker("zh")) == "没有一行能读取；第 2 行：不是 JSON：x，在第 1 列"
     parts = Row("d.py", WRONG, failed=("path", "escape"))
     assert report.cells(parts, Speaker("zh"))["failed"] == "路径、逃逸"
+
+
+def test_numbers_that_are_none_are_told_in_the_readers_language():
+    assert equation("t", [None, None], SAY) == "t = NaN or ∞"
+    assert equation("t", [None, None], Speaker("zh")) == "t = NaN 或 ∞"
 
 
 def test_names_of_what_is_never_met_are_listed_as_chinese_lists():

@@ -33,6 +33,8 @@ TOML = (SCENES / "furnace.toml").read_text(encoding="utf-8")
         ("a" * 500 + ".png", "a" * 64 + ".png"),
         ("…/\x00<script>.exr", "script.exr"),
         ("..jsonl", "file.jsonl"),
+        ("作业/张三 的图.png", "张三_的图.png"),
+        ("\U00020000" * 64 + ".png", "\U00020000" * 50 + ".png"),
     ],
 )
 def test_of_a_name_from_outside_harmless_characters_are_kept(name, kept):

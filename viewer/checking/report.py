@@ -182,7 +182,7 @@ def _detail(found, say):
         for name in ("recorded", "right"):
             value = getattr(found, name)
             if value is not None:
-                rows.append((say(f"doctor.{name}"), equation(say.quantity(found.what), value)))
+                rows.append((say(f"doctor.{name}"), equation(say.quantity(found.what), value, say)))
         rows += [(say("doctor.why"), say.clue(found.explanation))] if found.explanation else []
         rows += [(say("doctor.first"), place(found.first, say))] if found.first else []
         rows += [(say("doctor.lesson"), lesson(found))] if found.lesson is not None else []

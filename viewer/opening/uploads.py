@@ -22,6 +22,7 @@ LARGEST = {
 }  # bytes
 MOST_PIXELS = 1 << 22  # of a picture
 LONGEST_NAME = 64
+MOST_BYTES = 200  # of a name: file systems have 255
 
 
 @dataclass(frozen=True)
@@ -35,14 +36,15 @@ class Upload:
 
 
 def named(name):
-    """A file's name from outside: its last part, of harmless characters. Raises TracerError for a kind that
-    is not opened."""
+    """A file's name from outside: its last part, of letters, digits, _ and -. Raises TracerError for a kind
+    that is not opened."""
     name = re.split(r"[\\/]", str(name))[-1]
     ending = Path(name).suffix.lower()
     if ending not in LARGEST:
         raise TracerError(f"open: {name[:40]!r} is none of the files that are opened: {', '.join(LARGEST)}")
-    stem = re.sub(r"[^A-Za-z0-9_-]+", "_", name[: -len(ending)])[:LONGEST_NAME]
-    return (stem.strip("_") or "file") + ending
+    stem = re.sub(r"[^\w-]+", "_", name[: -len(ending)])[:LONGEST_NAME]
+    short = stem.encode()[:MOST_BYTES].decode(errors="ignore")
+    return (short.strip("_") or "file") + ending
 
 
 def check_size(name, size):

@@ -59,7 +59,7 @@ def _cause(finding, say):
         ("formula", say.formula(finding.rule, finding.formula)),
     ]
     rows += [
-        (key, equation(say.quantity(finding.what), value))
+        (key, equation(say.quantity(finding.what), value, say))
         for key, value in (("recorded", finding.recorded), ("right", finding.right))
         if value is not None
     ]
