@@ -250,6 +250,16 @@ def test_a_lamps_radiance_that_is_told_for_its_dark_side_but_not_used_is_no_mist
     assert "light-radiance" in fired(examine(used))
 
 
+def test_what_a_surface_reflects_that_is_told_for_its_back_but_not_used_is_no_mistake():
+    trace = kept("room")
+    light = trace.tables["light"]
+    below = (trace.tables["hit"]["n"][:, trace.hit_of("light")] * light["wi"]).sum(axis=0) < -0.01
+    told = changed(trace, "light.f", lambda f: f + np.float32(0.2), below)
+    assert below.any() and "light-f" not in fired(examine(told))
+    used = changed(told, "light.contribution", lambda c: c + np.float32(1), below)
+    assert "light-f" in fired(examine(used))
+
+
 def test_what_cannot_be_told_has_no_name():
     odd = with_column(
         kept("room"), "light.contribution", kept("room").tables["light"]["contribution"] * np.float32(1.37)

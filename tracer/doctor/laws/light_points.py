@@ -109,13 +109,13 @@ def radiance(evidence):
     room = (64.0 * evidence.eps + np.where(shape, 0.0, 8.0 * evidence.off_point / r)) * np.abs(right)
     off = ~(np.abs(recorded - right) <= room).all(axis=0)
     bad = np.where(around, bad, off)
-    unsure = unsure | _unused(evidence, bad & shape & (right == 0.0).all(axis=0))
+    unsure = unsure | unused(evidence, bad & shape & (right == 0.0).all(axis=0))
     return Outcome("light", np.arange(bad.size), bad & ~unsure, unsure, recorded, right, "Le")
 
 
-def _unused(evidence, dark):
-    """Which of the samples of a lamp's dark side are no mistake: all, if none of them brings anything. A log
-    may say what the lamp sends before it is asked to which side."""
+def unused(evidence, dark):
+    """Which of the samples from where nothing arrives are no mistake, (E,): all, if none brings anything. A
+    log may say what a lamp sends or a surface reflects before it is asked to which side."""
     if not evidence.has("light.contribution") or evidence("light.contribution")[:, dark].any():
         return np.zeros_like(dark)
     return dark

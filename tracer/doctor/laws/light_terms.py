@@ -1,10 +1,13 @@
 """Light samples: what the surface makes of them, whether they are seen, and what arrives."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tracer.doctor.compare import judged
 from tracer.doctor.laws.chain import carried
 from tracer.doctor.laws.emission import mis, strategy
+from tracer.doctor.laws.light_points import unused
 from tracer.doctor.rule import Outcome, Rule
 from tracer.frame import dot, length
 
@@ -13,7 +16,12 @@ _LEAST = 1e-30  # what would arrive and is less may have underflowed: then nobod
 
 def reflected(evidence):
     """I2: f is that of the surface at this vertex."""
-    return asked_again(evidence, "light", "eval", "f", evidence.sound("light", "wi"))
+    found = asked_again(evidence, "light", "eval", "f", evidence.sound("light", "wi"))
+    dark = (found.right == 0.0).all(axis=0)
+    if (found.wrong & ~dark).any():  # another f, which shows from below as well
+        return found
+    spare = unused(evidence, found.wrong)
+    return replace(found, wrong=found.wrong & ~spare, unsure=found.unsure | spare)
 
 
 def asked_again(evidence, kind, method, field, sound, rows=None):
