@@ -45,6 +45,8 @@ class Calls:
         """Pick a pixel."""
         settings = self.session.settings
         x, y = whole("x", x, settings.width), whole("y", y, settings.height)
+        if self.session.given is not None:
+            x, y = self.session.given.near(x, y)
         self.window.pause()
         self.session.pick(x, y)
         self.state.update({"touched": True, "message": ""})

@@ -44,10 +44,6 @@ class Overlay:
             "ends": [short(self.low), short(self.high)],
         }
 
-    def bytes(self):
-        """The values as the page reads them."""
-        return np.ascontiguousarray(self.values, np.float32).tobytes()
-
 
 def mask(by, title, pixels, settings, **told):
     """The Overlay of [x, y, number] of some pixels, as shares of a pixel's samples."""

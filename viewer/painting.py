@@ -102,7 +102,7 @@ class Painting:
         self.session.numpy_why = self._painter.why if self._painter else ""
         complete = spp == self.session.settings.spp
         with self.state as state:
-            state.rgb = picture.rgb.tobytes()
+            state.rgb = self.session.spread(picture.rgb).tobytes()
             if self.gl:
                 self.window.show("picture")  # who made it
             self._tell_progress(None if complete else 0, spp)

@@ -76,6 +76,10 @@ class Session:
         self.cursor = Cursor(x, y, lengths, brightest(self.record))
         self.history.add((x, y))
 
+    def spread(self, values):
+        """Values (H, W, ...) of pixels as they are shown: given paths may leave out pixels."""
+        return values if self.given is None else self.given.spread(values)
+
     def open(self, link):
         """Turn to what a link says; True if that needs a new picture."""
         here = link.scene == self.scene.name

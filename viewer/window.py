@@ -139,7 +139,8 @@ class Window:
     def cover(self, overlay):
         """Lay an Overlay over the picture, or take away what lies there (None)."""
         before, self.session.overlay = self.session.overlay, overlay
-        self.state.overlay_values = overlay.bytes() if overlay else b""
+        values = self.session.spread(overlay.values) if overlay else ()
+        self.state.overlay_values = np.ascontiguousarray(values, np.float32).tobytes()
         for name in {"picture", *(laid.by for laid in (before, overlay) if laid)}:
             self.show(name)
 

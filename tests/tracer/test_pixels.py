@@ -7,6 +7,7 @@ import pytest
 
 import tracer
 from tracer.trace import gather, pixels
+from tracer.trace.lattice import lattice_of
 
 SETTINGS = tracer.Settings(width=8, height=8, spp=3, max_depth=5)
 
@@ -73,3 +74,28 @@ def test_a_pixel_without_a_path_is_refused(traced):
     _, trace = traced
     with pytest.raises(tracer.TracerError, match="pixel 2 5: no path of it was recorded"):
         pixels.pixel(trace.take(trace.paths["y"] != 5), 2, 5)
+
+
+@pytest.mark.parametrize(("columns", "rows", "count"), [(4, 2, (2, 4)), (2, 3, (4, 3))])
+def test_a_pixel_in_so_many_stands_for_what_is_around_it(traced, columns, rows, count):
+    _, trace = traced
+    x, y = trace.paths["x"], trace.paths["y"]
+    lattice = lattice_of(trace.take((x % columns == 0) & (y % rows == 1)))
+    assert (lattice.first, lattice.step, lattice.count) == ((0, 1), (columns, rows), count)
+    height, width = trace.settings.height, trace.settings.width
+    values = np.arange(height * width).reshape(height, width)
+    shown = lattice.spread(values)
+    for at in np.ndindex(height, width):
+        column, row = lattice.nearest(at[1], at[0])
+        assert column % columns == 0 and row % rows == 1 and shown[at] == values[row, column]
+        if at[0] % rows == 1 and at[1] % columns == 0:
+            assert (column, row) == at[::-1]
+
+
+@pytest.mark.parametrize(
+    "kept", [lambda x, y: y != 5, lambda x, y: x % 2 == 0, lambda x, y: (x == 1) & (y == 1)]
+)
+def test_pixels_that_are_no_lattice_stand_for_themselves(traced, kept):
+    """A row that is lost, columns alone, one pixel."""
+    _, trace = traced
+    assert lattice_of(trace.take(kept(trace.paths["x"], trace.paths["y"]))) is None

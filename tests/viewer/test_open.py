@@ -15,6 +15,7 @@ from tracer.settings import ANY_DEPTH
 from viewer import picture_examining
 from viewer.opening.uploads import LARGEST, MOST_PIXELS, check_size, named, opened
 from viewer.panels import all_panels
+from viewer.panels import given as given_panel
 from viewer.session import Session
 from viewer.understanding.why import why
 from viewer.words import Speaker
@@ -172,6 +173,19 @@ def test_every_panel_shows_paths_of_which_little_is_logged(lines):
         session.cursor = session.cursor.at(event)
         for panel in all_panels():
             assert str(ANY_DEPTH) not in str(panel.show(session, say))  # which the log does not say
+
+
+def test_where_a_log_has_one_pixel_in_so_many_a_click_beside_it_means_it():
+    places = [(x, y) for y in (0, 4) for x in (0, 4)]
+    lines = [{"kind": "end", "x": x, "y": y, "sample": 0, "radiance": [x, y, 1]} for x, y in places]
+    header = {"castray": 1, "tracer": "mine", "width": 8, "height": 8}
+    data = "\n".join(json.dumps(line) for line in (header, *lines)).encode()
+    given = opened("a.jsonl", data, tracer.load("cornell_unit")).given
+    session = Session(given.scene, given.settings, tracer.load)
+    session.give(given)
+    assert session.given.near(6, 1) == (4, 0)
+    assert session.spread(given.picture.rgb)[1, 6].tolist() == [4, 0, 1]
+    assert "one pixel in 4 × 4" in given_panel.show(session, Speaker("en"))["said"]
 
 
 def sent(server, name, data, **headers):

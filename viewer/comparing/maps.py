@@ -30,7 +30,9 @@ def view(name, a, b, verdict):
 def _numbers(picture, verdict):
     """A picture's numbers in the unit in which both are compared."""
     rgb = to_srgb(picture.rgb) / 255.0 if verdict.errors.unit == "sRGB" else picture.rgb
-    return np.asarray(rgb, np.float64)
+    samples = getattr(picture, "samples", None)
+    there = True if samples is None else (samples > 0)[..., None]  # a log may leave out pixels
+    return np.where(there, np.asarray(rgb, np.float64), np.nan)
 
 
 def _furthest(difference):

@@ -11,6 +11,7 @@ import tracer
 from lessons.course import about
 from tracer.settings import TracerError
 from tracer.trace import Trace, pixels
+from tracer.trace.lattice import lattice_of
 from viewer.cursor import Cursor
 from viewer.examining import Chart, charted
 from viewer.given import logged_trace
@@ -59,6 +60,19 @@ class Given:
     def picture(self):
         """What they make together."""
         return pixels.picture(self.trace)
+
+    @cached_property
+    def lattice(self):
+        """The Lattice of its pixels, None where it has all of them or some that lie anyhow."""
+        return lattice_of(self.trace)
+
+    def near(self, x, y):
+        """The pixel with paths that is meant where (x, y) is clicked."""
+        return (x, y) if self.lattice is None else self.lattice.nearest(x, y)
+
+    def spread(self, values):
+        """Values (H, W, ...) of pixels as they are shown: a pixel of a lattice fills what is around it."""
+        return values if self.lattice is None else self.lattice.spread(values)
 
     def record(self, x, y):
         """The PixelRecord of a pixel. Raises TracerError where no path was recorded."""

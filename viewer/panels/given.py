@@ -37,6 +37,8 @@ def _said(watched, given, say):
     found, paths = len(given.chart.diagnosis.causes), given.trace.size
     seen = say("given.findings", n=found, paths=paths) if found else say("given.clean", paths=paths)
     words.append(seen)
+    if given.lattice is not None:
+        words.append(say("given.lattice", columns=given.lattice.step[0], rows=given.lattice.step[1]))
     if watched and watched.error:
         words.append(say("given.last_good"))
     return say.sentences(*words)
