@@ -5,7 +5,7 @@ mostly none. `steps` are replaced steps of castray's own loop, `cpp` and `python
 that log, or are watched.
 """
 
-from outside import balls, cpp, more_python, more_steps, python, steps
+from outside import balls, corridor, cpp, more_python, more_steps, python, shed, steps, two_rays
 
-_FAMILIES = (steps, cpp, python, more_steps, balls, more_python)
+_FAMILIES = (steps, cpp, python, more_steps, balls, more_python, two_rays, corridor, shed)
 MISTAKES = {mistake.id: mistake for family in _FAMILIES for mistake in family.MISTAKES}

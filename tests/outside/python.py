@@ -11,18 +11,31 @@ from viewer.checking.learner import judged, settings_of
 SMALL = {"width": 24, "height": 24, "spp": 8}
 
 
-def diagnosed(changes):
-    """What `castray check` says of the starter with some of its text changed, {old: new}."""
-    text = Path(starter.__file__).read_text(encoding="utf-8")
+def with_changes(text, changes):
+    """A program with some of its text changed, {old: new}; ValueError unless each old is there once."""
     for old, new in changes.items():
         if text.count(old) != 1:
-            raise ValueError(f"{text.count(old)} times in the starter: {old}")
+            raise ValueError(f"{text.count(old)} times in the program: {old}")
         text = text.replace(old, new)
+    return text
+
+
+def judged_text(text, **settings):
+    """What `castray check` says of a program; settings beside the small ones."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mine.py"
         path.write_text(text, encoding="utf-8")
-        request = {"file": str(path), "scene": "cornell", "settings": settings_of(None).as_dict() | SMALL}
+        request = {
+            "file": str(path),
+            "scene": "cornell",
+            "settings": settings_of(None).as_dict() | SMALL | settings,
+        }
         return judged(*child.run(request))
+
+
+def diagnosed(changes):
+    """What `castray check` says of the starter with some of its text changed, {old: new}."""
+    return judged_text(with_changes(Path(starter.__file__).read_text(encoding="utf-8"), changes))
 
 
 def _of(id, words, laws, changes, fair=()):
