@@ -69,7 +69,7 @@ static Shape side_of_room(int axis, real side, const Paint &paint) {
     return [=, &paint](const Beam &b, Touch &nearest) {
         if (b.along[axis] * side <= 0) return;
         real t = (side - b.from[axis]) / b.along[axis];
-        if (t < NEAR || t >= nearest.t) return;
+        if (t < -NEAR || t >= nearest.t) return;  // a ray that starts in a corner meets the other wall at once
         Triple n = NOTHING, p = b.from + t * b.along;
         n[axis] = -side;
         p[axis] = side;
@@ -164,6 +164,7 @@ static Triple radiance(const Beam &beam, int depth, bool bulb_counts) {
     if (!here.paint.mirror) {
         Lit l = here.lit();
         direct = l.sum;
+        CASTRAY_LOG("direct", direct);
 #ifndef LITTLE
         CASTRAY_LOG("light.q", l.q, "light.nq", l.nq, "light.Le", BULB.glow, "light.f", l.f, "light.distance", l.far);
         CASTRAY_LOG("light.pdf_area", l.density, "light.wi", l.to);
@@ -186,7 +187,7 @@ static Triple radiance(const Beam &beam, int depth, bool bulb_counts) {
 #endif
         }
     }
-    CASTRAY_LOG("direct", direct, "indirect", indirect);
+    CASTRAY_LOG("indirect", indirect);
     return CASTRAY_RETURN(glow + direct + indirect);
 }
 

@@ -27,6 +27,15 @@ MISTAKES = (
     _of("right-little", "no mistake; little is logged", (), {}, LITTLE),
     _of("right-little-6", "no mistake; little is logged, 6 digits", (), {}, ("-DLITTLE", "-DDIGITS=6")),
     _of(
+        "right-direct-0",
+        "no mistake; at mirrors a direct light of 0 is logged",
+        (),
+        {
+            '        CASTRAY_LOG("direct", direct);': "",
+            'CASTRAY_LOG("indirect", indirect);': 'CASTRAY_LOG("direct", direct, "indirect", indirect);',
+        },
+    ),
+    _of(
         "half-the-ball",
         "points all over the lamp, the density of half of it",
         ("light-pdf", "lamp-points"),

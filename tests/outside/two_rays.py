@@ -23,6 +23,12 @@ _DENSITY = "density = v.material.pdf(to, v.out, v.n)\n"
 MISTAKES = (
     _of("right", "no mistake", (), {}),
     _of("right-uniform", "no mistake; a uniform hemisphere", (), {}, hemisphere="uniform"),
+    _of(
+        "right-late",
+        "no mistake; roulette from the third vertex on",
+        (),
+        {"FREE_BOUNCES = 0": "FREE_BOUNCES = 2"},
+    ),
     _of("right-one", "no mistake; one light sample a vertex", (), {"SHADOW_RAYS = 2": "SHADOW_RAYS = 1"}),
     _of(
         "not-averaged",
@@ -90,7 +96,7 @@ MISTAKES = (
     ),
     _of(
         "weight-one-late",
-        "roulette is played from the third vertex on, its weight is given from the fourth on",
+        "roulette is played at all vertices, its weight is given from the second on",
         ("throughput", "roulette-weight"),
         {"weight = 1.0 / KEEP": "weight = 1.0 / KEEP if depth > FREE_BOUNCES else 1.0"},
         ("R01",),

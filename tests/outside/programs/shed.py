@@ -153,20 +153,21 @@ def main():
             r = np.sqrt(gap @ gap)
             wi = gap / r
             cos, cos_light = n @ wi, -(nq @ wi)
-            f = colour / REAL(math.pi)
-            sample = {"q": q, "nq": nq, "wi": wi, "distance": r, "light": i, "pick": PICKS[i], "u": u}
-            sample |= {"beta": beta, "pdf_area": 1 / lamp.area, "Le": lamp.radiance}
+            f, pdf_area = colour / REAL(math.pi), 1 / lamp.area
+            Le, pdf, pdf_bsdf, w, visible, term = vec(0, 0, 0), 0.0, 0.0, 0.0, False, vec(0, 0, 0)
             if cos > 0 and cos_light > 0:
-                pdf_area = 1 / lamp.area
+                Le = lamp.radiance
                 pdf = PICKS[i] * pdf_area * r * r / cos_light
                 pdf_bsdf = cos / REAL(math.pi)
                 w = power_weight(pdf, pdf_bsdf)
                 visible = nearest(p, wi)[0] > r - BACK
-                term = beta * f * lamp.radiance * cos * w / pdf if visible else vec(0, 0, 0)
+                term = beta * f * lamp.radiance * cos * w / pdf if visible else term
                 total = total + term
-                sample |= {"f": f, "cos": cos, "cos_light": cos_light, "pdf": pdf, "pdf_bsdf": pdf_bsdf}
-                sample |= {"visible": visible, "w": w, "contribution": term}
-            log("light", depth=depth, **sample)
+            log(
+                "light", depth=depth, q=q, nq=nq, wi=wi, distance=r, light=i, pick=PICKS[i], u=u, beta=beta,
+                pdf_area=pdf_area, Le=Le, f=f, cos=abs(cos), cos_light=cos_light, pdf=pdf, pdf_bsdf=pdf_bsdf,
+                visible=visible, w=w, contribution=term,
+            )  # fmt: skip
 
             if depth >= FREE:
                 number = rng.random()
@@ -191,7 +192,10 @@ def main():
             density = cos / REAL(math.pi)
             before = beta
             beta = beta * f * cos / density
-            log("bounce", depth=depth, wi=d, f=f, cos=cos, pdf=density, beta_before=before, beta=beta, u=v)
+            log(
+                "bounce", depth=depth, wi=d, f=f, cos=cos, pdf=density, beta_before=before, beta=beta,
+                u=vec(0, *v),
+            )  # fmt: skip
             o = p
             depth += 1
         log("end", reason=reason, radiance=total)

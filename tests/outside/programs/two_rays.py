@@ -1,9 +1,9 @@
-"""A cast_ray that asks two lamp points at each vertex, and plays roulette from the third bounce on."""
+"""A cast_ray that asks two lamp points at each vertex, and plays roulette from a bounce on."""
 
 from tracer.learner import Ray, dot, length, normalize
 
 SHADOW_RAYS = 2
-FREE_BOUNCES = 2
+FREE_BOUNCES = 0
 KEEP = 0.7
 TOLERANCE = 0.05  # mm
 
