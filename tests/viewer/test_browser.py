@@ -137,6 +137,7 @@ def test_a_pixel_outside_the_picture_is_refused_in_one_line(page, x):
     message.wait_for()
     assert "63" in message.inner_text() and "Traceback" not in message.inner_text()
     assert truth(page)["cursor"] == before
+    assert page.get_by_test_id("pixel-x").input_value() == str(before["x"])
     page.get_by_test_id("close-message").click()
     message.wait_for(state="detached")
 

@@ -16,6 +16,7 @@ from viewer import picture_examining
 from viewer.opening.uploads import LARGEST, MOST_PIXELS, check_size, named, opened
 from viewer.panels import all_panels
 from viewer.panels import given as given_panel
+from viewer.panels import picture as picture_panel
 from viewer.session import Session
 from viewer.understanding.why import why
 from viewer.words import Speaker
@@ -186,6 +187,8 @@ def test_where_a_log_has_one_pixel_in_so_many_a_click_beside_it_means_it():
     assert session.given.near(6, 1) == (4, 0)
     assert session.spread(given.picture.rgb)[1, 6].tolist() == [4, 0, 1]
     assert "one pixel in 4 × 4" in given_panel.show(session, Speaker("en"))["said"]
+    shown = picture_panel.show(session, Speaker("en"))
+    assert (shown["first"], shown["step"]) == ((0, 0), (4, 4))
 
 
 def sent(server, name, data, **headers):

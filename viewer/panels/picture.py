@@ -14,12 +14,12 @@ TEMPLATE = """
   <p v-if="picture.engine" class="dim engine" role="status" data-testid="engine" :title="picture.engine.title">{{ picture.engine.text }}</p>
   <castray-legend v-if="picture.overlay" :overlay="picture.overlay" :words="w" @close="trigger('uncover')"></castray-legend>
   <div class="row">
-    <label>x <input type="number" inputmode="numeric" min="0" :max="picture.width - 1" data-testid="pixel-x"
+    <label>x <input type="number" inputmode="numeric" :min="picture.first[0]" :step="picture.step[0]" :max="picture.width - 1" data-testid="pixel-x"
       :value="picture.x" :aria-label="w.pixel_x" :title="w.pixel_x"
-      @change="trigger('pick', [$event.target.value, picture.y])"></label>
-    <label>y <input type="number" inputmode="numeric" min="0" :max="picture.height - 1" data-testid="pixel-y"
+      @change="trigger('pick', [$event.target.value, picture.y]); $event.target.validity.valid || ($event.target.value = picture.x)"></label>
+    <label>y <input type="number" inputmode="numeric" :min="picture.first[1]" :step="picture.step[1]" :max="picture.height - 1" data-testid="pixel-y"
       :value="picture.y" :aria-label="w.pixel_y" :title="w.pixel_y"
-      @change="trigger('pick', [picture.x, $event.target.value])"></label>
+      @change="trigger('pick', [picture.x, $event.target.value]); $event.target.validity.valid || ($event.target.value = picture.y)"></label>
     <span class="grow"></span>
     <button class="small" data-testid="pixel-back" :disabled="!picture.behind" :aria-label="w.pixel_back" :title="w.pixel_back"
       @click="trigger('back', [-1])"><castray-icon name="back"/></button>
@@ -40,9 +40,12 @@ TEMPLATE = """
 def show(session, say):
     """The picked pixel and its value, and what lies over the picture."""
     cursor, record = session.cursor, session.record
+    lattice = session.given and session.given.lattice
     return {
         "width": session.settings.width,
         "height": session.settings.height,
+        "first": lattice.first if lattice else (0, 0),
+        "step": lattice.step if lattice else (1, 1),
         "x": cursor.x,
         "y": cursor.y,
         "value": several(record.value),
