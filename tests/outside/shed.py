@@ -36,6 +36,7 @@ _MET = "w = 1.0 if depth == 0 else power_weight(density, pdf_light)"
 MISTAKES = (
     _of("right", "no mistake; 64 bits, 12 digits", (), {}),
     _of("right-32", "no mistake; 32 bits, 7 digits", (), {}, precision="float32", digits=7),
+    _of("right-late", "no mistake; roulette from the fourth vertex on", (), {"8, 0, 0.75": "8, 3, 0.75"}),
     _of(
         "weight-of-areas",
         "both weights compare a density per area with one per solid angle",
@@ -83,7 +84,7 @@ MISTAKES = (
         "numbers-of-the-lamp",
         "the next direction is made of the numbers that chose the lamp's point",
         ("numbers-once", "numbers-independent"),
-        {"v = rng.random(2)": "v = u[1:]"},
+        {"v = rng.random(3)": "v = u"},
     ),
     _of(
         "lamps-by-halves",

@@ -12,7 +12,7 @@ import numpy as np
 
 REAL = np.dtype(sys.argv[2] if len(sys.argv) > 2 else "float64").type
 DIGITS = int(sys.argv[3] if len(sys.argv) > 3 else 12)
-SIDE, SPP, FREE, KEEP = 20, 8, 3, 0.75
+SIDE, SPP, FREE, KEEP = 20, 8, 0, 0.75
 BACK = 1e-4  # how far before its end a shadow ray stops
 
 
@@ -154,11 +154,11 @@ def main():
             wi = gap / r
             cos, cos_light = n @ wi, -(nq @ wi)
             f, pdf_area = colour / REAL(math.pi), 1 / lamp.area
-            Le, pdf, pdf_bsdf, w, visible, term = vec(0, 0, 0), 0.0, 0.0, 0.0, False, vec(0, 0, 0)
+            Le = lamp.radiance if cos_light > 0 else vec(0, 0, 0)
+            pdf, pdf_bsdf = 0.0, max(cos, REAL(0)) / REAL(math.pi)
+            w, visible, term = 0.0, False, vec(0, 0, 0)
             if cos > 0 and cos_light > 0:
-                Le = lamp.radiance
                 pdf = PICKS[i] * pdf_area * r * r / cos_light
-                pdf_bsdf = cos / REAL(math.pi)
                 w = power_weight(pdf, pdf_bsdf)
                 visible = nearest(p, wi)[0] > r - BACK
                 term = beta * f * lamp.radiance * cos * w / pdf if visible else term
@@ -178,9 +178,9 @@ def main():
                     break
 
             # the next direction
-            v = rng.random(2)
-            turn, out_of_centre = 2 * math.pi * v[0], math.sqrt(v[1])
-            up = math.sqrt(1 - v[1])
+            v = rng.random(3)  # the first would choose the lobe
+            turn, out_of_centre = 2 * math.pi * v[1], math.sqrt(v[2])
+            up = math.sqrt(1 - v[2])
             a, b = frame(n)
             d = (
                 REAL(out_of_centre * math.cos(turn)) * a
@@ -192,10 +192,7 @@ def main():
             density = cos / REAL(math.pi)
             before = beta
             beta = beta * f * cos / density
-            log(
-                "bounce", depth=depth, wi=d, f=f, cos=cos, pdf=density, beta_before=before, beta=beta,
-                u=vec(0, *v),
-            )  # fmt: skip
+            log("bounce", depth=depth, wi=d, f=f, cos=cos, pdf=density, beta_before=before, beta=beta, u=v)
             o = p
             depth += 1
         log("end", reason=reason, radiance=total)
