@@ -31,11 +31,29 @@ def _of(id, words, laws, changes, fair=(), **how):
     return Mistake(f"shed {id}", words, laws, partial(diagnosed, changes, **how), fair, "fourth")
 
 
+_ROULETTE = """\
+            if depth >= FREE:
+                number = rng.random()
+                beta = beta / KEEP if number < KEEP else beta
+                log("roulette", depth=depth, probability=KEEP, u=number, survived=number < KEEP, beta=beta)
+                if number >= KEEP:
+                    reason = "roulette"
+                    break
+"""
 _WEIGHT = "w = power_weight(pdf, pdf_bsdf)"
 _MET = "w = 1.0 if depth == 0 else power_weight(density, pdf_light)"
 MISTAKES = (
     _of("right", "no mistake; 64 bits, 12 digits", (), {}),
     _of("right-32", "no mistake; 32 bits, 7 digits", (), {}, precision="float32", digits=7),
+    _of(
+        "right-before",
+        "no mistake; roulette is played and logged before the bounce, not after it",
+        (),
+        {
+            _ROULETTE: "",
+            "            # the next direction\n": _ROULETTE + "\n            # the next direction\n",
+        },
+    ),
     _of("right-late", "no mistake; roulette from the fourth vertex on", (), {"8, 0, 0.75": "8, 3, 0.75"}),
     _of(
         "weight-of-areas",

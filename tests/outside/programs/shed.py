@@ -155,10 +155,10 @@ def main():
             cos, cos_light = n @ wi, -(nq @ wi)
             f, pdf_area = colour / REAL(math.pi), 1 / lamp.area
             Le = lamp.radiance if cos_light > 0 else vec(0, 0, 0)
-            pdf, pdf_bsdf = 0.0, max(cos, REAL(0)) / REAL(math.pi)
+            pdf = PICKS[i] * pdf_area * r * r / cos_light if cos_light > 0 else 0.0
+            pdf_bsdf = max(cos, REAL(0)) / REAL(math.pi)
             w, visible, term = 0.0, False, vec(0, 0, 0)
             if cos > 0 and cos_light > 0:
-                pdf = PICKS[i] * pdf_area * r * r / cos_light
                 w = power_weight(pdf, pdf_bsdf)
                 visible = nearest(p, wi)[0] > r - BACK
                 term = beta * f * lamp.radiance * cos * w / pdf if visible else term
@@ -168,14 +168,6 @@ def main():
                 pdf_area=pdf_area, Le=Le, f=f, cos=abs(cos), cos_light=cos_light, pdf=pdf, pdf_bsdf=pdf_bsdf,
                 visible=visible, w=w, contribution=term,
             )  # fmt: skip
-
-            if depth >= FREE:
-                number = rng.random()
-                beta = beta / KEEP if number < KEEP else beta
-                log("roulette", depth=depth, probability=KEEP, u=number, survived=number < KEEP, beta=beta)
-                if number >= KEEP:
-                    reason = "roulette"
-                    break
 
             # the next direction
             v = rng.random(3)  # the first would choose the lobe
@@ -193,6 +185,14 @@ def main():
             before = beta
             beta = beta * f * cos / density
             log("bounce", depth=depth, wi=d, f=f, cos=cos, pdf=density, beta_before=before, beta=beta, u=v)
+
+            if depth >= FREE:
+                number = rng.random()
+                beta = beta / KEEP if number < KEEP else beta
+                log("roulette", depth=depth, probability=KEEP, u=number, survived=number < KEEP, beta=beta)
+                if number >= KEEP:
+                    reason = "roulette"
+                    break
             o = p
             depth += 1
         log("end", reason=reason, radiance=total)
