@@ -40,11 +40,17 @@ _ROULETTE = """\
                     reason = "roulette"
                     break
 """
-_WEIGHT = "w = power_weight(pdf, pdf_bsdf)"
+_WEIGHT = "w = power_weight(pdf, pdf_bsdf) if"
 _MET = "w = 1.0 if depth == 0 else power_weight(density, pdf_light)"
 MISTAKES = (
     _of("right", "no mistake; 64 bits, 12 digits", (), {}),
     _of("right-32", "no mistake; 32 bits, 7 digits", (), {}, precision="float32", digits=7),
+    _of(
+        "right-nothing-0",
+        "no mistake; the weight is logged as 0 where nothing can arrive from the lamp",
+        (),
+        {"if pdf > 0 else 0.0": "if pdf > 0 and cos > 0 else 0.0"},
+    ),
     _of(
         "right-before",
         "no mistake; roulette is played and logged before the bounce, not after it",
@@ -60,7 +66,7 @@ MISTAKES = (
         "both weights compare a density per area with one per solid angle",
         ("light-weight", "emission-weight"),
         {
-            _WEIGHT: "w = power_weight(PICKS[i] * pdf_area, pdf_bsdf)",
+            _WEIGHT: "w = power_weight(PICKS[i] * pdf_area, pdf_bsdf) if",
             _MET: "w = 1.0 if depth == 0 else power_weight(density, PICKS[which] / lamp.area)",
         },
         ("M01",),

@@ -157,9 +157,9 @@ def main():
             Le = lamp.radiance if cos_light > 0 else vec(0, 0, 0)
             pdf = PICKS[i] * pdf_area * r * r / cos_light if cos_light > 0 else 0.0
             pdf_bsdf = max(cos, REAL(0)) / REAL(math.pi)
-            w, visible, term = 0.0, False, vec(0, 0, 0)
+            w = power_weight(pdf, pdf_bsdf) if pdf > 0 else 0.0
+            visible, term = False, vec(0, 0, 0)
             if cos > 0 and cos_light > 0:
-                w = power_weight(pdf, pdf_bsdf)
                 visible = nearest(p, wi)[0] > r - BACK
                 term = beta * f * lamp.radiance * cos * w / pdf if visible else term
                 total = total + term
