@@ -20,6 +20,7 @@ SECTIONS = {
     "alarms": ("False alarms", "make false-alarms"),
     "outside": ("Bugs outside the catalogue", "python tests/doctor_outside.py"),
     "third": ("A third batch outside the catalogue", ""),
+    "fourth": ("A fourth batch outside the catalogue", "python tests/doctor_outside.py"),
     "tried": ("Tried as a new user", ""),
     "large": ("A million vertices", "python tests/large_logs.py"),
 }

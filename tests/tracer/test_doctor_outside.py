@@ -33,6 +33,29 @@ def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_findi
     assert MISTAKES["balls right"].diagnosed().findings == ()
 
 
+FOURTH_RIGHT = ("two-rays right", "corridor right", "corridor right-doubles", "shed right-32")
+FOURTH = (
+    "two-rays not-averaged", "two-rays nudge-inwards", "corridor shadow-hit-stays",
+    "corridor half-and-jitter",
+    "corridor mean-of-the-two", "shed density-of-the-first", "shed axes-exchanged",
+)  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", FOURTH_RIGHT)
+def test_right_programs_of_three_kinds_have_no_finding(id):
+    assert MISTAKES[id].diagnosed().findings == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", FOURTH)
+def test_a_mistake_that_the_laws_had_never_seen_breaks_a_law_foretold_and_gets_no_wrong_name(id):
+    mistake = MISTAKES[id]
+    causes = mistake.diagnosed().causes
+    assert causes[0].rule in mistake.laws
+    assert {f.bug for f in causes if f.bug} <= set(mistake.fair)
+
+
 THIRD = {mistake.id: mistake for mistake in (*weekend.MISTAKES, *hall.MISTAKES, *third_steps.MISTAKES)}
 
 
@@ -178,4 +201,5 @@ def test_the_table_of_such_mistakes_is_written(tmp_path):
     row = doctor_outside.measured(MISTAKES["f-twice"])
     doctor_paper.write("outside", doctor_outside.text({"f-twice": row}), paper)
     text = paper.read_text(encoding="utf-8")
+    assert "<!-- fourth -->" not in text
     assert "| f-twice |" in text and "| recorded = right x pi x f |" in text and "0 a wrong one" in text
