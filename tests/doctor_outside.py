@@ -30,11 +30,12 @@ AS_COMMITTED = (
     "the lamp's radiance stood there for points behind it (E06); with a lobe's number that is always "
     "0 it was called P02. In the second one, rays left the room by its corners, which was found with "
     "doubles (on-surface). Then the programs were changed so that the right ones get through, and "
-    "what the doctor takes amiss was kept as rows of its own: besides these two, roulette that is "
+    "what the doctor took amiss was kept as rows of its own: besides these two, roulette that is "
     "logged before the bounce (roulette-played), weights of 0 where nothing can arrive "
     "(light-weight), and light samples that are logged at matt surfaces only, in a log of terms "
-    "(roulette-share: paths that end at mirrors are not counted). So far-side-shines is not found "
-    "either: no more is said of it than of the right program."
+    "(roulette-share: paths that end at mirrors were not counted). Measured at commit 00de0f1, of 36 "
+    "mistakes 35 were found, in 32 by a law foretold and first, 1 had a fair name, none a wrong one; 7 of "
+    "15 right programs had a finding. Those seven were mended with these programs at hand."
 )
 SECTIONS = {"outside": ("first", "fresh"), "fourth": ("fourth",)}
 PUT_RIGHT = (
@@ -59,7 +60,7 @@ HEADS = {
         "only) and a flat loop in NumPy that writes events, with MIS and two lamps (shed): 36 "
         "mistakes and the right programs, written from README.md, the starter and the log's page "
         "alone, by somebody who had read neither the laws nor the tables above, and committed before "
-        "they were measured. Nothing of the doctor was mended for them."
+        "they were measured."
     ),
 }
 

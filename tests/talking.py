@@ -34,9 +34,14 @@ def talk(server, cookie, *messages, raw=None):
                 await ws.send_bytes(raw)
             return answers[1:]
 
-    # In a thread of its own: the browser of other tests may have left its loop running in this one.
+    return alone(conversation())
+
+
+def alone(coroutine):
+    """What a coroutine gives, in a thread of its own: the browser of other tests may have left its loop
+    running in this one."""
     with ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, conversation()).result()
+        return thread.submit(asyncio.run, coroutine).result()
 
 
 def chunk(message):

@@ -33,7 +33,11 @@ def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_findi
     assert MISTAKES["balls right"].diagnosed().findings == ()
 
 
-FOURTH_RIGHT = ("two-rays right", "corridor right", "corridor right-doubles", "shed right-32")
+FOURTH_RIGHT = (
+    "two-rays right-late", "corridor right", "corridor right-doubles", "corridor right-little",
+    "corridor right-direct-0", "shed right-32", "shed right-late", "shed right-before",
+    "shed right-nothing-0",
+)  # fmt: skip
 FOURTH = (
     "two-rays not-averaged", "two-rays nudge-inwards", "corridor shadow-hit-stays",
     "corridor half-and-jitter",
@@ -43,7 +47,7 @@ FOURTH = (
 
 @pytest.mark.slow
 @pytest.mark.parametrize("id", FOURTH_RIGHT)
-def test_right_programs_of_three_kinds_have_no_finding(id):
+def test_right_programs_have_no_finding_however_they_play_roulette_and_whatever_they_log(id):
     assert MISTAKES[id].diagnosed().findings == ()
 
 

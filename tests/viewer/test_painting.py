@@ -4,10 +4,12 @@ import asyncio
 from types import SimpleNamespace
 
 import pytest
+from talking import alone
 
 import tracer
 from viewer import painting
 from viewer.painting import Painting, Post
+from viewer.session import Session
 
 
 class State(SimpleNamespace):
@@ -23,15 +25,13 @@ class State(SimpleNamespace):
 def a_painting(**settings):
     """The Painting of a small picture, and its session."""
     scene = tracer.load("cornell_unit")
-    session = SimpleNamespace(
-        scene=scene, settings=tracer.Settings(width=8, height=8, **settings), shelf={}, given=None, against=""
-    )
+    session = Session(scene, tracer.Settings(width=8, height=8, **settings), tracer.load)
     window = SimpleNamespace(session=session, state=State(rgb=b"", progress=""), say=lambda *_, **__: "")
     return Painting(window), session
 
 
 async def complete(session):
-    while getattr(session, "spp_done", 0) != session.settings.spp:
+    while session.spp_done != session.settings.spp:
         await asyncio.sleep(0.01)
 
 
@@ -49,7 +49,7 @@ def test_a_picture_that_comes_soon_comes_with_the_words(monkeypatch):
         await complete(session)
         return here
 
-    assert asyncio.run(twice()) == 1
+    assert alone(twice()) == 1
 
 
 @pytest.mark.parametrize("limit", [0.0, 60.0], ids=["it takes longer", "nobody knows how long it takes"])
@@ -64,11 +64,11 @@ def test_words_do_not_wait_for_a_picture_that_may_be_long_in_coming(monkeypatch,
             session.spp_done = 0
         work.begin()
         work.wait()
-        here = getattr(session, "spp_done", 0)
+        here = session.spp_done
         await complete(session)
         return here
 
-    assert asyncio.run(begun()) == 0
+    assert alone(begun()) == 0
 
 
 def test_what_was_waited_for_is_done_once_and_in_order():
@@ -84,7 +84,7 @@ def test_what_was_waited_for_is_done_once_and_in_order():
         await asyncio.sleep(0)
         return now, done
 
-    assert asyncio.run(told()) == ([1, 2], [1, 2, 3])
+    assert alone(told()) == ([1, 2], [1, 2, 3])
 
 
 def test_what_a_painter_tells_that_was_replaced_is_not_done():
@@ -97,4 +97,4 @@ def test_what_a_painter_tells_that_was_replaced_is_not_done():
         post.wait(0.0)
         return done
 
-    assert asyncio.run(told()) == []
+    assert alone(told()) == []

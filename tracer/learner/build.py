@@ -193,8 +193,9 @@ class Builder:
 
 
 def trace_of(scene, settings, paths, tables):
-    """The Trace; a survival probability that is not one number is free."""
-    free = frozenset({"roulette"} if settings.roulette == "auto" else ())
+    """The Trace; from where on roulette is played is free, and so is a survival probability that is not one
+    number."""
+    free = frozenset({"roulette", "roulette-start"} if settings.roulette == "auto" else {"roulette-start"})
     return Trace(scene, settings, paths, tables, float(np.finfo(np.float64).eps), free=free)
 
 

@@ -43,7 +43,8 @@ class Trace:
     were worked out by the very law about them, so that they cannot break it.
     culled: whether rays may have passed the backs of surfaces: many programs cull them, castray does not.
     free: settings that the program chose otherwise at every vertex, or did not declare ("size", of the
-    picture), so that no law says what they have to be.
+    picture; "roulette-start", the depth from which on roulette is played), so that no law says what they
+    have to be.
     light_samples: how many a vertex has, whose mean counts.
     left_out: how many more paths there were, which are not here for what they did, so that those that are
     here are no fair sample.

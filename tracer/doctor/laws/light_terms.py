@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tracer.bsdf.glass import Refracting
 from tracer.doctor.compare import judged
 from tracer.doctor.laws.chain import carried
 from tracer.doctor.laws.emission import mis, strategy
@@ -74,9 +75,22 @@ def weight(evidence):
     def value(pdf, pdf_bsdf):
         return np.ones_like(pdf) if strategy(settings) == "light" else mis(settings, pdf, pdf_bsdf)
 
-    return judged(
-        evidence, "light", rows, evidence("light.w")[rows], value, inputs, "w", absolute=32 * evidence.eps
-    )
+    w = evidence("light.w")[rows]
+    found = judged(evidence, "light", rows, w, value, inputs, "w", absolute=32 * evidence.eps)
+    spare = found.wrong & (w == 0.0) & _brings_nothing(evidence)[rows]
+    return replace(found, wrong=found.wrong & ~spare, unsure=found.unsure | spare)
+
+
+def _brings_nothing(evidence):
+    """Light samples (E,) of which a factor that is recorded is 0: a weight of 0 there is no mistake."""
+    found = np.zeros(evidence.count("light"), bool)
+    for name in ("light.Le", "light.f"):
+        if evidence.has(name):
+            found |= (evidence(name) == 0.0).all(axis=0)
+    for name in ("light.visible", "light.cos"):
+        if evidence.has(name):
+            found |= evidence(name) <= 0
+    return found
 
 
 def throughput(evidence):
@@ -86,6 +100,13 @@ def throughput(evidence):
     return judged(
         evidence, "light", rows, evidence("light.beta"), lambda right: right, {"right": (right, 0.0)}, "beta"
     )
+
+
+def _refracting(scene, primitive):
+    """Whether light gets through the surface of primitives (N,): where rough glass lets through next to
+    nothing, rounding decides whether it lets through anything."""
+    found = np.array([isinstance(m, Refracting) for m in scene.definition.bsdfs.values()])
+    return found.take(scene.bsdf_of.take(primitive))
 
 
 def from_nowhere(evidence):
@@ -100,9 +121,13 @@ def from_nowhere(evidence):
     behind = dot(evidence.brute.normals(q, lamp), -gap)
     hidden, near = evidence.lamps.hidden(p, lamp, room)
     f = evidence.asked(p, n, wo, gap / length(gap), surface, "eval")
-    above = np.minimum(*(np.abs(dot(normal, gap)) for normal in (n, evidence.brute.normals(p, surface))))
+    above, steep = (
+        np.minimum(*(np.abs(dot(normal, way)) for normal in (n, evidence.brute.normals(p, surface))))
+        for way in (gap, wo)
+    )
     back = ((behind < -room) | hidden) & ~near
-    dark = (f == 0.0).all(axis=0) & (above > room) & evidence.sound("light")[rows]
+    dark = (f == 0.0).all(axis=0) & (above > room) & (steep > 4.0 * evidence.off_unit)
+    dark &= ~_refracting(evidence.scene, surface) & evidence.sound("light")[rows]
     recorded = evidence("light.contribution")[:, rows]
     bad = (back | dark) & (recorded != 0.0).any(axis=0)
     none = np.zeros(bad.shape, bool)

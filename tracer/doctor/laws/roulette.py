@@ -44,13 +44,21 @@ def played(evidence):
     if "roulette" in evidence.trace.free:
         raise NotRecordedError("one probability, declared")
     depth = evidence.trace.tables["bounce"].depth
-    q = chance(evidence.settings, evidence("bounce.beta"), depth)
-    row = evidence.after("bounce", "roulette")
-    step = evidence.trace.tables["roulette"].step
+    here = _beside(evidence, evidence.after("bounce", "roulette"), 1)
+    here |= _beside(evidence, evidence.before("bounce", "roulette"), -1)
+    due = chance(evidence.settings, evidence("bounce.beta"), depth) < 1.0
+    if "roulette-start" in evidence.trace.free and here.any():
+        due &= depth >= depth[here].min()
+    bad = here != due
+    return Outcome("bounce", np.arange(bad.size), bad, np.zeros_like(bad), here, due, "roulette played")
+
+
+def _beside(evidence, row, steps):
+    """Whether the roulette in each of these rows, -1 for none, is so many steps after its bounce."""
     here = row >= 0
-    here[here] = step[row[here]] == evidence.trace.tables["bounce"].step[here] + 1
-    bad = here != (q < 1.0)
-    return Outcome("bounce", np.arange(bad.size), bad, np.zeros_like(bad), here, q < 1.0, "roulette played")
+    step = evidence.trace.tables["roulette"].step.take(row[here])
+    here[here] = step == evidence.trace.tables["bounce"].step[here] + steps
+    return here
 
 
 def survival(evidence):

@@ -96,7 +96,7 @@ def means(evidence):
         ratio = ours.whole.sum() / max(theirs.whole.sum(), 1e-300)
         words = f"the picture is {ratio:.4g} times as bright as it should be"
         yield Cell(balanced(ours.whole - theirs.whole), words, "path", rows, {"ratio": ratio, "way": "all"})
-        if "roulette" in evidence.trace.free:
+        if _own_roulette(evidence):
             return
         ratio = ours.vertices.sum() / max(theirs.vertices.sum(), 1e-300)
         words = f"paths have {ratio:.4g} times as many vertices as they should"
@@ -105,9 +105,15 @@ def means(evidence):
         )
 
 
+def _own_roulette(evidence):
+    """Whether roulette is not played as the reference plays it: with another chance, or from later on."""
+    free, depth = evidence.trace.free, evidence.trace.tables["roulette"].depth
+    return "roulette" in free or ("roulette-start" in free and depth.size > 0 and depth.min() > 0)
+
+
 def variances(evidence):
     """I18: the spread of a pixel's samples."""
-    if "roulette" in evidence.trace.free:
+    if _own_roulette(evidence):
         raise NotRecordedError("one survival probability, declared")
     ours, theirs, spp = tallies(evidence)
     if spp < 2:

@@ -34,9 +34,7 @@ class Stages:
         self.vertex = places.vertex(slice(None))
         self.dark = geometry.dark(self.scene, self.vertex)
         self.q = self._probability()
-        worked = chain.any("light.") | chain.any("roulette.") | chain.given("direct")
-        if not worked.any():
-            worked = places.hit
+        worked = self._worked()
         told_lost = np.zeros(chain.path.size, bool)
         if chain.given("roulette.survived").any():
             told_lost = chain.given("roulette.survived") & (chain.columns.values["roulette.survived"] == 0)
@@ -56,9 +54,18 @@ class Stages:
         self.lost = (told_lost & chain.last) | guessed
         self.bounced = bounced & ~self.lost & places.hit
         self.played = np.isfinite(self.q) & (self.bounced | self.lost)
-        self.lit = chain.any("light.") | (chain.given("direct") & places.hit)
+        self.lit = chain.any("light.") | (chain.given("direct") & places.hit & self._may_be_lit())
         self.wi = self._directions()
         self._place_steps()
+
+    def _worked(self):
+        """Whether each call came as far as to look for light or to play roulette, (N,): as its log tells, or
+        where nothing is ever logged of that at surfaces of its material."""
+        chain, places = self.chain, self.places
+        told = chain.any("light.") | chain.any("roulette.") | chain.given("direct")
+        material = self.scene.bsdf_of.take(np.maximum(places.primitive, 0))
+        silent = np.bincount(material[places.hit & told], minlength=material.max() + 1) == 0
+        return told | (places.hit & silent.take(material))
 
     def _probability(self):
         """Chance to go on at each call, (N,); NaN where none is known."""
@@ -68,11 +75,21 @@ class Stages:
             q[:] = float(self.settings.roulette)
         except ValueError:
             pass
-        if chain.given("roulette.probability").any():
-            np.copyto(q, chain("roulette.probability"), where=chain.given("roulette.probability"))
+        given = chain.given("roulette.probability")
+        if given.any():
+            q[chain.level < chain.level[given].min()] = np.nan  # there it is not played yet
+            np.copyto(q, chain("roulette.probability"), where=given)
         else:
             self.rebuilt.add("roulette.probability")
         return q
+
+    def _may_be_lit(self):
+        """Whether direct light can be that of a light sample, (N,): a 0 at a mirror or a black surface says
+        that there was none."""
+        if not self.chain.given("direct").any():
+            return np.zeros(self.chain.path.size, bool)
+        mirrors = self.scene.bsdf.is_delta(self.scene.bsdf_of.take(np.maximum(self.places.primitive, 0)))
+        return ~(mirrors | self.dark) | (self.chain("direct") != 0.0).any(axis=0)
 
     def _directions(self):
         """Where each call went on, (3, N)."""

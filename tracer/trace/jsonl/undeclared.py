@@ -28,11 +28,13 @@ def read_off(read):
 
 def free(read, shown):
     """Names of settings that are neither declared nor one number: any lawful one is in order, vertex by
-    vertex. "size" is the picture's. shown: what read_off found."""
+    vertex. "size" is the picture's, "roulette-start" the depth from which on roulette is played, which no log
+    declares. shown: what read_off found."""
     chosen = _column(read, "roulette", "probability").size > 0
     declared = "roulette" in shown or read.header.options.get("roulette") is not None
     sized = all(read.header.options.get(name) is not None for name in ("width", "height"))
-    return frozenset(({"roulette"} if chosen and not declared else set()) | (set() if sized else {"size"}))
+    found = {"roulette-start"} | ({"roulette"} if chosen and not declared else set())
+    return frozenset(found | (set() if sized else {"size"}))
 
 
 def _weighs(read):
