@@ -51,6 +51,16 @@ class Machines:
             stderr=subprocess.DEVNULL,
         )
 
+    def wait_for_work(self):
+        """Wait until somebody has given the scheduler something to do."""
+        import distributed
+
+        end = time.monotonic() + PATIENCE
+        with distributed.Client(self.address, timeout=PATIENCE, set_as_default=False) as client:
+            while not client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)):
+                assert time.monotonic() < end, "the scheduler was given nothing to do"
+                time.sleep(0.1)
+
     @property
     def address(self):
         """The scheduler's, once all workers are there."""

@@ -129,8 +129,9 @@ def test_the_command_records_by_the_workers_and_survives_the_scheduler(machines,
         stderr=subprocess.PIPE,
         encoding="utf-8",
     )
+    machines.wait_for_work()
     with pytest.raises(subprocess.TimeoutExpired):
-        running.wait(4.0)
+        running.wait(2.0)
     machines.scheduler.kill()
     said = running.communicate(timeout=20)[1].splitlines()
     assert running.returncode == 1
