@@ -15,6 +15,8 @@ from tracer.engine import many, waves
 from tracer.engine.picture import SoFar
 from tracer.trace import folder, recording, unfinished
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = tracer.Settings(width=6, height=5, spp=36, max_depth=4)
 
 

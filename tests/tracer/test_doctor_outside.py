@@ -13,6 +13,8 @@ from tracer.doctor import examine
 from tracer.doctor.statistics.cells import FEW
 from tracer.events import END_REASONS
 
+pytestmark = pytest.mark.slow
+
 QUICK = ("f-twice", "roulette-early", "depths-share")
 SLOW = (
     "cosine-of-the-lamp", "towards-the-ray", "barrel", "lamp-from-behind", "c++ first-material",
@@ -28,7 +30,6 @@ def test_a_mistake_of_no_catalogue_breaks_its_law_and_gets_no_wrong_name(id):
     assert {f.bug for f in causes if f.bug} <= set(mistake.fair)
 
 
-@pytest.mark.slow
 def test_a_right_program_that_logs_roulette_only_where_it_is_played_has_no_finding():
     assert MISTAKES["balls right"].diagnosed().findings == ()
 
@@ -45,13 +46,11 @@ FOURTH = (
 )  # fmt: skip
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", FOURTH_RIGHT)
 def test_right_programs_have_no_finding_however_they_play_roulette_and_whatever_they_log(id):
     assert MISTAKES[id].diagnosed().findings == ()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", FOURTH)
 def test_a_mistake_that_the_laws_had_never_seen_breaks_a_law_foretold_and_gets_no_wrong_name(id):
     mistake = MISTAKES[id]
@@ -63,13 +62,11 @@ def test_a_mistake_that_the_laws_had_never_seen_breaks_a_law_foretold_and_gets_n
 THIRD = {mistake.id: mistake for mistake in (*weekend.MISTAKES, *hall.MISTAKES, *third_steps.MISTAKES)}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", ["weekend right", "hall right-by-mean", "hall right-evenly"])
 def test_a_right_program_may_choose_lamps_in_its_own_way_and_log_what_it_does_not_use(id):
     assert THIRD[id].diagnosed().findings == ()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "id",
     [
@@ -85,12 +82,10 @@ def test_a_mistake_of_which_little_is_logged_breaks_its_law_and_gets_no_wrong_na
     assert {f.bug for f in causes if f.bug} <= set(THIRD[id].fair)
 
 
-@pytest.mark.slow
 def test_numbers_of_a_surface_that_was_not_met_are_no_cause_of_their_own():
     assert [f.rule for f in THIRD["weekend camera-not-unit"].diagnosed().causes] == ["unit-direction"]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", [mistake.id for mistake in third_steps.MISTAKES])
 def test_what_resembles_a_mistake_of_the_catalogue_gets_no_wrong_name(id):
     causes = THIRD[id].diagnosed().causes
@@ -114,7 +109,6 @@ def test_the_same_formula_at_some_vertices_only_has_no_name():
     assert named == ["D10", None]
 
 
-@pytest.mark.slow
 def test_a_weight_that_is_almost_1_is_told_where_it_counts_twice():
     assert MISTAKES["weight-twice"].diagnosed().causes[0].explanation == "recorded = right x w"
 

@@ -24,6 +24,8 @@ from tracer.doctor.picture.walls import shown
 from tracer.picture import to_srgb
 from tracer.trace.jsonl.schema import call_fields
 
+pytestmark = pytest.mark.slow
+
 CURVES = ("srgb", 0.6, 1.0)
 SCENE = loaded("cornell")
 
@@ -73,20 +75,17 @@ def test_a_right_picture_gives_no_hypothesis(side, spp):
         assert opinion(values, curves).is_right
 
 
-@pytest.mark.slow
 def test_two_mistakes_at_once_are_told_apart():
     found = opinion(screen(picture("E01", "D06")), ("srgb",), mixtures(SCENE, ZOO))
     assert found.hypotheses[0].bugs == ("E01", "D06")
 
 
-@pytest.mark.slow
 def test_what_is_not_in_the_catalogue_fits_nothing():
     odd = picture() * np.linspace(0.2, 3.0, 48)[None, :, None]
     found = opinion(screen(odd), ("srgb",))
     assert not found.hypotheses and not found.is_right and found.nearest is not None
 
 
-@pytest.mark.slow
 def test_a_factor_is_called_a_factor():
     for values, curves in ((3.0 * picture(), (None,)), (screen(0.5 * picture()), ("srgb",))):
         first = opinion(values, curves).hypotheses[0]
@@ -94,7 +93,6 @@ def test_a_factor_is_called_a_factor():
         assert first.bugs == (("F04",) if curves == (None,) else ())
 
 
-@pytest.mark.slow
 def test_the_curve_of_the_homework_is_found_and_undone():
     found = opinion(screen(picture(), 0.6))
     assert found.is_right and found.reading.curve == 0.6
@@ -102,7 +100,6 @@ def test_the_curve_of_the_homework_is_found_and_undone():
     assert not opinion(screen(picture(), 0.6), ("srgb",)).is_right
 
 
-@pytest.mark.slow
 def test_a_curve_that_was_said_wrongly_is_told_from_the_likelier_one():
     for values, said, likelier in ((screen(picture()), 0.6, "srgb"), (screen(picture(), 0.6), 0.6, None)):
         assert likelier_curve(values, opinion(values, (said,)), stored()) == likelier
@@ -127,7 +124,6 @@ def test_a_picture_that_is_the_wrong_way_round_is_said_and_undone(turned, said):
     assert opinion(screen(picture())).reading.turn is None
 
 
-@pytest.mark.slow
 def test_a_picture_of_another_shape_is_compared_by_its_middle_or_as_stretched():
     values = screen(picture())
     found = opinion(np.concatenate((values[:, :10], values, values[:, -10:]), axis=1))
@@ -135,7 +131,6 @@ def test_a_picture_of_another_shape_is_compared_by_its_middle_or_as_stretched():
     assert opinion(values.repeat(2, axis=1)).reading.shape == "stretched"
 
 
-@pytest.mark.slow
 def test_pixels_that_are_no_numbers_and_rows_that_nobody_drew_are_hypotheses():
     holes, band = picture().copy(), picture().copy()
     holes[10, 10], band[38:] = np.nan, 0.0
@@ -155,7 +150,6 @@ def test_resampling_keeps_the_mean_whatever_the_size():
     assert resampled(values, 37, 23) == pytest.approx(values)
 
 
-@pytest.mark.slow
 def test_the_black_rim_of_the_right_picture_is_no_lost_row():
     """Walls end where no pixel of these sizes does."""
     for side in (33, 64, 100, 200):
@@ -164,7 +158,6 @@ def test_the_black_rim_of_the_right_picture_is_no_lost_row():
         assert opinion(np.where(rim[:, None, None], seen, 0.0), (None,), spp=256).hypotheses == ()
 
 
-@pytest.mark.slow
 def test_the_table_holds_what_the_tracers_of_today_draw():
     """The broken twin: another bug's looks are far from it."""
     for bug in ("E01", "D06"):
@@ -172,7 +165,6 @@ def test_the_table_holds_what_the_tracers_of_today_draw():
         assert fit(seen, stored().bugs[bug]).typical < 1.0 < fit(seen, stored().bugs["B02"]).typical
 
 
-@pytest.mark.slow
 def test_other_scenes_are_compared_with_what_is_rendered_now():
     unit = loaded("cornell_unit")
     few = [bug for bug in suited(unit, ZOO.values()) if bug.id in ("E02", "B02")]
@@ -249,7 +241,6 @@ def test_a_right_picture_gives_no_clue_to_anything():
     assert {seen.state for seen in found.objects} <= {"agrees", "unsure", "unseen"}
 
 
-@pytest.mark.slow
 def test_what_glass_does_leaves_light_samples_and_the_curve_as_they_are():
     scene = loaded("coloured_glass")
     known = album(scene, [bug for bug in suited(scene, ZOO.values()) if bug.id in ("E01", "D10", "A01")])

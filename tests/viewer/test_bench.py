@@ -11,6 +11,8 @@ from tracer.testing import efficiency
 from viewer import bench_words
 from viewer.cli import main
 
+pytestmark = pytest.mark.slow
+
 QUICK = ("--size", "6", "4", "--max-depth", "3", "--spp", "1", "4", "--seeds", "2")
 
 DOT = """
@@ -53,7 +55,6 @@ def names(document, found=()):
     return set(found)
 
 
-@pytest.mark.slow
 def test_the_table_has_a_line_for_every_point_and_says_which_is_best(bench):
     code, out, err = bench("cornell_unit", *QUICK)
     assert (code, err) == (0, "")
@@ -81,7 +82,6 @@ def test_the_json_is_one_document_with_what_the_docstring_says(bench):
         assert point["kernel"] > 0 and point["paths_per_second"] > 0 and len(point["runs"]) == 2
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["png", "svg"])
 def test_the_picture_is_drawn(bench, tmp_path, suffix):
     code, out, _ = bench("cornell_unit", *QUICK, "-o", f"curves.{suffix}", "--integrator", "direct")
@@ -92,7 +92,6 @@ def test_the_picture_is_drawn(bench, tmp_path, suffix):
         assert tracer.read(tmp_path / "curves.png").rgb.std() > 0.05, "it is blank"
 
 
-@pytest.mark.slow
 def test_several_scenes_are_rows_of_one_picture(bench, tmp_path):
     code, out, _ = bench("furnace", "cornell_unit", *QUICK, "-o", "two.png", "--integrator", "walk")
     assert code == 0 and "furnace, 6 x 4" in out and "cornell_unit, 6 x 4" in out
@@ -100,7 +99,6 @@ def test_several_scenes_are_rows_of_one_picture(bench, tmp_path):
     assert one > 1.5 * two
 
 
-@pytest.mark.slow
 def test_what_a_scene_refuses_is_left_out_and_it_is_said_why(bench):
     code, out, _ = bench("dot.toml", *QUICK)
     assert code == 0
@@ -111,7 +109,6 @@ def test_what_a_scene_refuses_is_left_out_and_it_is_said_why(bench):
     assert [row["name"] for row in scene["estimators"]] == ["path-mis", "path-light", "direct"]
 
 
-@pytest.mark.slow
 def test_an_exact_estimator_has_no_error_to_be_seen(bench):
     words = ("furnace", *QUICK, "--roulette", "off")
     code, out, _ = bench(*words)
@@ -125,7 +122,6 @@ def test_samplers_and_precisions_are_named_where_there_are_several(bench):
     assert code == 0 and "walk, 32 " in out and "walk, 64 " in out
 
 
-@pytest.mark.slow
 def test_samples_may_go_where_the_error_is(bench):
     few = (
         "--size",
@@ -150,7 +146,6 @@ def test_samples_may_go_where_the_error_is(bench):
     assert "path-mis alone was measured" in out
 
 
-@pytest.mark.slow
 def test_a_bug_is_measured_against_the_right_picture(bench):
     words = (
         "furnace",

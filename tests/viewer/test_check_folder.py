@@ -22,6 +22,8 @@ from viewer.options import CheckOptions
 from viewer.replay import of_scene
 from viewer.words import Speaker
 
+pytestmark = pytest.mark.slow
+
 FEW = CheckOptions(size=(6, 6), spp=2)
 SAY = Speaker("en")
 
@@ -37,13 +39,11 @@ def row(tmp_path, name, content, seconds=30.0):
     return row_of(path, name, "cornell", FEW, seconds)
 
 
-@pytest.mark.slow
 def test_a_right_tracer_passes_in_all_its_parts(tmp_path):
     found = row(tmp_path, "李雷 (1).py", text())
     assert (found.state, found.failed) == (RIGHT, ()) and {"light", "bounce", "hit"} <= {*found.passed}
 
 
-@pytest.mark.slow
 def test_a_wrong_one_is_named_with_the_part_that_fails_and_the_command_that_proves_it(tmp_path):
     found = row(tmp_path, "追踪器.py", text().replace("* f * cos * cos_light", "* f * cos_light"))
     assert found.state == WRONG and found.failed == ("light",) and "light" not in found.passed
@@ -99,13 +99,11 @@ def test_names_of_what_is_never_met_are_listed_as_chinese_lists():
     assert Speaker("zh").clue("no ray meets floor, lamp") == "没有光线遇到 floor、lamp"
 
 
-@pytest.mark.slow
 def test_a_tracer_that_hangs_is_ended_and_is_a_row(tmp_path):
     found = row(tmp_path, "hang.py", "while True:\n    print('spam')\n", seconds=1.0)
     assert found.state == FAILED and "not done after 1 s" in found.error
 
 
-@pytest.mark.slow
 def test_a_log_that_takes_too_long_is_a_row_and_the_next_one_is_judged(tmp_path):
     for name in ("a.jsonl", "b.jsonl"):
         (tmp_path / name).write_text("nonsense", encoding="utf-8")
@@ -191,7 +189,6 @@ def folder(tmp_path_factory):
     return folder
 
 
-@pytest.mark.slow
 def test_the_command_writes_table_csv_and_page_and_says_1(folder, tmp_path):
     few = ("--size", 6, 6, "--spp", 2)
     written = ("--csv", tmp_path / "t.csv", "--html", tmp_path / "t.html")
@@ -204,7 +201,6 @@ def test_the_command_writes_table_csv_and_page_and_says_1(folder, tmp_path):
     assert 'data-state="findings"' in (tmp_path / "t.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.slow
 def test_json_has_a_row_each(folder):
     said = json.loads(castray("check", folder, "--size", 6, 6, "--spp", 2, "--json").stdout)
     assert {r["state"] for r in said["rows"]} == {"findings", "failed", "hypotheses"}

@@ -19,6 +19,8 @@ from viewer import picture_examining
 from viewer.picture_report import beyond, print_objects
 from viewer.words import Speaker
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
@@ -52,7 +54,6 @@ def test_a_picture_gives_hypotheses_and_no_findings(folder):
     assert max(map(len, ran.stdout.splitlines()[1:-1])) <= 80
 
 
-@pytest.mark.slow
 def test_where_nothing_fits_the_object_that_stands_out_is_named_and_what_to_do_next(tmp_path):
     exchanged = changed(tracer.load("cornell"), {"red.reflectance": (0.065, 0.63, 0.05)})
     dark = replace(ZOO["D10"].asked(width=40, height=40, spp=16), roulette="0.5")
@@ -76,7 +77,6 @@ def test_the_object_that_stands_out_is_unlike_the_others(ratios, name, coloured)
     assert (wall and wall.name, of_colour) == (name, coloured)
 
 
-@pytest.mark.slow
 def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     ran = castray("doctor", folder / "红墙 mine.png", "--scene", "cornell", "--json", "--spp", 8)
     said = json.loads(ran.stdout)
@@ -86,7 +86,6 @@ def test_its_json_keeps_hypotheses_and_findings_apart(folder):
     assert first["evidence"]["left_wall"]["yours"][1] > 3.0
 
 
-@pytest.mark.slow
 def test_a_right_picture_is_called_right_and_drawn_beside_the_reference(folder, tmp_path):
     out = tmp_path / "beside.png"
     ran = castray("--lang", "zh", "doctor", folder / "right.png", "--scene", "cornell", "-o", out)
@@ -160,7 +159,6 @@ def test_what_is_said_of_a_picture_that_nothing_fits_follows_from_its_clues(what
         assert all(name in console.file.getvalue() for name in ("floor", "70%"))
 
 
-@pytest.mark.slow
 def test_the_command_says_what_agrees_and_what_to_log_where_nothing_fits(tmp_path):
     right = tracer.render(tracer.load("cornell"), ZOO["D06"].asked(width=48, height=48, spp=16, seed=5)).rgb
     odd = right * np.where(np.arange(48) < 20, 1.0, np.linspace(0.3, 2.5, 48))[None, :, None]

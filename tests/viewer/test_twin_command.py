@@ -10,6 +10,8 @@ from lessons import zoo
 from viewer import app as viewer_app
 from viewer.cli import main
 
+pytestmark = pytest.mark.slow
+
 SMALL = ("--size", 8, 6, "--spp", 4, "--integrator", "direct")
 
 
@@ -84,7 +86,6 @@ def test_the_commands_it_prints_show_the_event(capsys, opened):
         assert (session.cursor.x, session.cursor.y) == (first["x"], first["y"])
 
 
-@pytest.mark.slow
 def test_two_recordings_are_compared_and_open_where_they_part(recordings, capsys, opened):
     right, wrong = recordings / "right", recordings / "wrong"
     assert run("twin", right, right) == 0
