@@ -64,11 +64,15 @@ def of_scene(file, scene, place=None):
     return f"{named} --scene {shlex.quote(str(scene))}"
 
 
+def view_of(file, scene, trace, first):
+    """`castray view` of a file of another tracer, whose Trace is without gaps or a log's, at the event that
+    {x, y, sample, step} name."""
+    return f"castray view {of_scene(file, scene, pixels.place(trace, first))}"
+
+
 def shown_in_log(diagnosis, trace, file, scene):
     """The diagnosis of a log's Trace, each finding with the command that opens it at its event."""
-    return diagnosis.shown_by(
-        lambda first: f"castray view {of_scene(file, scene, pixels.place(trace, first))}"
-    )
+    return diagnosis.shown_by(lambda first: view_of(file, scene, trace, first))
 
 
 def replayed(diagnosis, scene, settings, recording=None):

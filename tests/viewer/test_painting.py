@@ -35,40 +35,29 @@ async def complete(session):
         await asyncio.sleep(0.01)
 
 
-def test_a_picture_that_comes_soon_comes_with_the_words(monkeypatch):
-    monkeypatch.setattr(painting, "TOGETHER", 60.0)
-
-    async def twice():
-        work, session = a_painting(spp=4)
+async def samples_here(before):
+    """Samples of a picture that is there at once; before: whether another was made before it."""
+    work, session = a_painting(spp=4)
+    if before:
         work.begin()
         await complete(session)
         session.spp_done = 0
-        work.begin()
-        work.wait()
-        here = session.spp_done
-        await complete(session)
-        return here
+    work.begin()
+    work.wait()
+    here = session.spp_done
+    await complete(session)
+    return here
 
-    assert alone(twice()) == 1
+
+def test_a_picture_that_comes_soon_comes_with_the_words(monkeypatch):
+    monkeypatch.setattr(painting, "TOGETHER", 60.0)
+    assert alone(samples_here(before=True)) == 1
 
 
 @pytest.mark.parametrize("limit", [0.0, 60.0], ids=["it takes longer", "nobody knows how long it takes"])
 def test_words_do_not_wait_for_a_picture_that_may_be_long_in_coming(monkeypatch, limit):
     monkeypatch.setattr(painting, "TOGETHER", limit)
-
-    async def begun():
-        work, session = a_painting(spp=4)
-        if not limit:
-            work.begin()
-            await complete(session)
-            session.spp_done = 0
-        work.begin()
-        work.wait()
-        here = session.spp_done
-        await complete(session)
-        return here
-
-    assert alone(begun()) == 0
+    assert alone(samples_here(before=not limit)) == 0
 
 
 def test_what_was_waited_for_is_done_once_and_in_order():

@@ -7,9 +7,8 @@ from tracer.doctor.causes import followed, ranked
 from tracer.doctor.diagnosis import Diagnosis
 from tracer.doctor.rule import NOT_TESTABLE
 from tracer.learner.run import run
-from tracer.trace.pixels import place
 from viewer.options import CheckOptions, Unsaid, settings_and_steps
-from viewer.replay import of_scene
+from viewer.replay import view_of
 
 SIDE, SPP = 24, int(CheckOptions().spp)  # of the small picture that is traced unless said
 
@@ -41,11 +40,8 @@ def examined(file, scene, options, seconds, quiet=False):
     Trace. quiet: what it prints goes nowhere. Raises TracerError."""
     settings = settings_of(options)
     whole, bright = run(file, scene, settings, seconds, quiet)
-
-    def opening(first):
-        return f"castray view {of_scene(file, scene, place(whole, first))}{said(settings)}"
-
-    return judged(whole, bright).shown_by(opening), whole
+    diagnosis = judged(whole, bright)
+    return diagnosis.shown_by(lambda first: view_of(file, scene, whole, first) + said(settings)), whole
 
 
 def judged(whole, bright):

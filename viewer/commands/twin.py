@@ -109,22 +109,19 @@ def _recorded(what, other, scene, options):
     return tuple(_side(name, scene) for name in (what, other))
 
 
-def _view_of_log(file, scene, trace, place):
-    from tracer.trace import pixels
-    from viewer.replay import of_scene
-
-    first = dict(zip(("x", "y", "sample", "step"), place, strict=True))
-    return f"castray view {of_scene(file, scene, pixels.place(trace, first))}"
-
-
 def _side(what, scene):
     from tracer.trace.folder import view_command
     from viewer.given import logged_trace, recorded_trace
     from viewer.recorded import is_recording
+    from viewer.replay import view_of
 
     if what.lower().endswith(".jsonl"):
-        trace = logged_trace(what, scene)
-        return Side(what, trace, lambda place: [_view_of_log(what, scene, trace, place)])
+        trace, names = logged_trace(what, scene), ("x", "y", "sample", "step")
+        return Side(
+            what,
+            trace,
+            lambda place: [view_of(what, scene, trace, dict(zip(names, place, strict=True)))],
+        )
     if not is_recording(what):
         raise TracerError(f"twin: {what} is neither a recording's folder nor a log, FILE.jsonl")
     return Side(what, recorded_trace(what), lambda place: [view_command(what, place)])

@@ -21,8 +21,12 @@ def reflected(evidence):
     dark = (found.right == 0.0).all(axis=0)
     if (found.wrong & ~dark).any():  # another f, which shows from below as well
         return found
-    spare = unused(evidence, found.wrong)
-    return replace(found, wrong=found.wrong & ~spare, unsure=found.unsure | spare)
+    return _spared(found, unused(evidence, found.wrong))
+
+
+def _spared(found, which):
+    """The Outcome without what is wrong at some of its events (K,), for which nobody knows then."""
+    return replace(found, wrong=found.wrong & ~which, unsure=found.unsure | which)
 
 
 def asked_again(evidence, kind, method, field, sound, rows=None):
@@ -77,8 +81,7 @@ def weight(evidence):
 
     w = evidence("light.w")[rows]
     found = judged(evidence, "light", rows, w, value, inputs, "w", absolute=32 * evidence.eps)
-    spare = found.wrong & (w == 0.0) & _brings_nothing(evidence)[rows]
-    return replace(found, wrong=found.wrong & ~spare, unsure=found.unsure | spare)
+    return _spared(found, found.wrong & (w == 0.0) & _brings_nothing(evidence)[rows])
 
 
 def _brings_nothing(evidence):
@@ -121,10 +124,8 @@ def from_nowhere(evidence):
     behind = dot(evidence.brute.normals(q, lamp), -gap)
     hidden, near = evidence.lamps.hidden(p, lamp, room)
     f = evidence.asked(p, n, wo, gap / length(gap), surface, "eval")
-    above, steep = (
-        np.minimum(*(np.abs(dot(normal, way)) for normal in (n, evidence.brute.normals(p, surface))))
-        for way in (gap, wo)
-    )
+    ng = evidence.brute.normals(p, surface)
+    above, steep = (np.minimum(np.abs(dot(n, way)), np.abs(dot(ng, way))) for way in (gap, wo))
     back = ((behind < -room) | hidden) & ~near
     dark = (f == 0.0).all(axis=0) & (above > room) & (steep > 4.0 * evidence.off_unit)
     dark &= ~_refracting(evidence.scene, surface) & evidence.sound("light")[rows]

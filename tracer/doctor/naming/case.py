@@ -104,8 +104,7 @@ def _sorts(evidence, kind, rows):
     sort = np.zeros(rows.size, np.int64)
     if kind not in ("hit", "light", "bounce") or not evidence.has("hit.primitive"):
         return sort
-    vertex = "hit.primitive" if kind == "hit" else None
-    primitive = evidence(vertex) if vertex else evidence.at_vertex(kind, "primitive")
+    primitive = evidence("hit.primitive") if kind == "hit" else evidence.at_vertex(kind, "primitive")
     sort = evidence.scene.bsdf_of.take(primitive[rows]).astype(np.int64)
     for name, many in (("lobe", 8), ("delta", 2)):
         if evidence.has(f"{kind}.{name}"):
